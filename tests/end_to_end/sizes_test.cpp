@@ -79,11 +79,11 @@ TEST_F(Sizes, AreGatedComparedAndDrawn) {
 
   const std::string plots = (temp_.path() / "plots").string();
   const Outcome drawn =
-      gnbv("plot " + run + " --plots coverage --voxel 0.2 --format svg --keep -o " + plots);
+      gnbv("plot " + run + " --plots coverage --voxel 0.2 --format json -o " + plots);
   ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
-  EXPECT_NE(read_file(fs::path(plots) / "coverage-views.svg").find("0.20 m"), std::string::npos);
+  EXPECT_NE(read_file(fs::path(plots) / "coverage-views.csv").find("0.20 m"), std::string::npos);
   const Outcome none = gnbv("plot " + original().string() +
-                            " --plots coverage --voxel 0.2 --format svg -o " + plots + "2");
+                            " --plots coverage --voxel 0.2 --format json -o " + plots + "2");
   EXPECT_TRUE(has(none, "not scored at 0.20 m: left out")) << none.output;
 }
 

@@ -11,7 +11,7 @@
 namespace gnbv {
 
 /// A width of 1512 pixels is one column of a paper: 3.5 inches at 432 dots an inch, with letters of
-/// 6 to 7 points. Letters and lines grow with the width.
+/// 7.5 points. Letters and lines grow with the width.
 struct FigureStyle {
   int width_px = 1512;
   int height_px = 0;      // 0: what each figure asks for

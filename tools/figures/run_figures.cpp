@@ -115,7 +115,7 @@ class TermPanels {
                               .mark = Mark::points,
                               .look = look,
                               .width_pt = 0.0,
-                              .size_pt = 1.0,
+                              .size_pt = 1.4,
                               .x = counts_,
                               .y = values});
     }

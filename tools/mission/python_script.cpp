@@ -15,6 +15,24 @@ using Json = nlohmann::ordered_json;
 
 GNBV_EMBED(python_script_py, GNBV_PYTHON_SCRIPT);
 
+Json answer_of(const std::string& program, const std::string& what, const Json& head,
+               const Json& request) {
+  ChildPipe child({program, "-c", std::string(python_script_py())});
+  const auto line = [](const Json& json) {  // ASCII, whatever Python takes for its locale
+    return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
+  };
+  child.write(line(head) + line(request));
+  Json answer = Json::parse(child.read_line(), nullptr, false);
+  if (answer.is_object()) return answer;
+  throw BadInput(fmt::format("{}: {} does not run ({}); GNBV_PYTHON names another", what, program,
+                             child.end()));
+}
+
+Json result_of(const Json& answer) {
+  if (answer.contains("error")) throw BadInput(answer["error"].get<std::string>());
+  return answer.at("answer");
+}
+
 }  // namespace
 
 Json ask_python(const PythonScript& script, const Json& request) {
@@ -25,18 +43,14 @@ Json ask_python(const PythonScript& script, const Json& request) {
                      {"what", script.what},
                      {"apt", script.apt},
                      {"pip", script.pip}};
-  ChildPipe child({python_program(), "-c", std::string(python_script_py())});
-  const auto line = [](const Json& json) {  // ASCII, whatever Python takes for its locale
-    return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
-  };
-  child.write(line(head) + line(request));
-  const Json answer = Json::parse(child.read_line(), nullptr, false);
-  if (!answer.is_object()) {
-    throw BadInput(fmt::format("{}: {} does not run ({}); GNBV_PYTHON names another", script.what,
-                               python_program(), child.end()));
+  const std::string program = python_program();
+  const Json answer = answer_of(program, script.what, head, request);
+  if (answer.contains("missing") && program == "python3") {
+    // another Python comes first in the path than the one that Debian's packages are for
+    const Json of_debian = answer_of("/usr/bin/python3", script.what, head, request);
+    if (!of_debian.contains("missing")) return result_of(of_debian);
   }
-  if (answer.contains("error")) throw BadInput(answer["error"].get<std::string>());
-  return answer.at("answer");
+  return result_of(answer);
 }
 
 }  // namespace gnbv

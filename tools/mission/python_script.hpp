@@ -17,8 +17,9 @@ struct PythonScript {
   std::string pip = {};  // and of the Python package index
 };
 
-/// What main() returns, of `python3`, or of what GNBV_PYTHON names. Throws BadInput with the one
-/// line that installs what is missing there, or with what went wrong.
+/// What main() returns, of `python3` (Debian's, where another that comes first in the path lacks
+/// the packages), or of what GNBV_PYTHON names. Throws BadInput with the one line that installs
+/// what is missing there, or with what went wrong.
 nlohmann::ordered_json ask_python(const PythonScript& script,
                                   const nlohmann::ordered_json& request);
 

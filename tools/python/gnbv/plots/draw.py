@@ -17,6 +17,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -24,6 +25,8 @@ Data = dict[str, Any]
 
 DPI = 432
 COLUMN_PX = 1512  # 3.5 inches: a column of a paper
+LEFT = 0.015  # where title and legend begin, as a share of the width
+LINE = 62  # letters that are as wide as the figure
 INK, GREY, SHADE, BAND = "#262c36", "#5c6470", "#dcebf5", "#f2f4f7"
 MARKERS = {"circle": "o", "square": "s", "triangle": "^", "downward": "v", "diamond": "D"}
 MARKERS["pentagon"] = "p"
@@ -31,10 +34,12 @@ METADATA = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Softw
 TEX = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"}
 
 
-def style(scale: float = 1.0, font: str = "") -> Data:
-    """matplotlib's settings: letters of 6 to 7 points in 3.5 inches, files without a date."""
-    small, line = 6.5 * scale, 0.5 * scale
-    settings: Data = {f"{of}.{key}": 1.5 * scale for of in ("xtick", "ytick") for key in ["major.pad"]}
+def style(scale: float = 1.0, font: str = "") -> Any:
+    """matplotlib's settings: letters of 7.5 points in 3.5 inches, files without a date."""
+    small, line = 7.5 * scale, 0.5 * scale
+    settings: Data = {
+        f"{of}.{key}": 1.5 * scale for of in ("xtick", "ytick") for key in ["major.pad"]
+    }
     settings |= {f"{of}.labelcolor": "#3a424d" for of in ("xtick", "ytick")}
     settings |= {f"{of}.major.size": 2.0 * scale for of in ("xtick", "ytick")}
     settings |= {f"{of}.major.width": line for of in ("xtick", "ytick")}
@@ -56,7 +61,8 @@ def style(scale: float = 1.0, font: str = "") -> Data:
         "grid.color": "#e4e7eb",
         "grid.linewidth": line,
         "legend.frameon": False,
-        "legend.handlelength": 2.4,
+        "legend.handlelength": 2.2,
+        "legend.handletextpad": 0.6,
         "legend.labelspacing": 0.35,
         "legend.borderpad": 0.0,
         "legend.borderaxespad": 0.0,
@@ -125,16 +131,18 @@ def _series(ax: Axes, panel: Data, series: Data, scale: float) -> None:
     mark = series["mark"]
     x, y = _known(series["x"]), _known(series["y"])
     low, high = _known(series["low"]), _known(series["high"])
-    step = "post" if mark == "steps" else None
+    step: Any = "post" if mark == "steps" else None
     if mark == "interval":
         _interval(ax, panel, series, scale)
     elif mark == "level":
-        ax.axhline(y[0], **_line(series, scale))
+        ax.axhline(y[0], clip_on=False, **_line(series, scale))
     elif mark == "area":
         ax.fill_between(x, low, high, color=series["colour"], linewidth=0)
     else:
         if low:
-            ax.fill_between(x, low, high, step=step, color=series["colour"], alpha=0.18, linewidth=0)
+            ax.fill_between(
+                x, low, high, step=step, color=series["colour"], alpha=0.18, linewidth=0
+            )
         points = _point(series, series["size_pt"] * scale) if mark == "points" else {}
         ax.plot(x, y, drawstyle="steps-post" if step else None, **_line(series, scale), **points)
     if series["end"]:
@@ -145,10 +153,10 @@ def _series(ax: Axes, panel: Data, series: Data, scale: float) -> None:
 def _axis(ax: Axes, which: str, axis: Data) -> None:
     if axis["log"]:
         getattr(ax, f"set_{which}scale")("log")
-        getattr(ax, f"{which}axis").minorticks_off()
     ticks = axis["ticks"]
     at, texts = [tick["at"] for tick in ticks], [safe(tick["text"]) for tick in ticks]
     getattr(ax, f"set_{which}ticks")(at, labels=texts)
+    getattr(ax, f"set_{which}ticks")([], minor=True)
     getattr(ax, f"set_{which}lim")(axis["low"], axis["high"])
     getattr(ax, f"set_{which}label")(safe(axis["label"]))
 
@@ -194,86 +202,116 @@ def legend_of(panel: Data, scale: float = 1.0) -> tuple[list[Any], list[str]]:
     return handles, labels
 
 
+def rows_of(figure: Data, items: Sequence[Any]) -> list[list[Any]]:
+    """What belongs to its panels, by the rows in which these stand."""
+    left = iter(items)
+    return [[next(left) for _ in range(count)] for count in figure["rows"]]
+
+
 def add_panels(figure: Data, canvas: Figure, scale: float = 1.0) -> list[Axes]:
-    """All panels, row by row; those with one x axis share its numbers below the last."""
-    panels, axes = iter(figure["panels"]), []
-    first = 0
-    heights = []
-    for count in figure["rows"]:
-        heights.append(figure["panels"][first]["height_px"])
-        first += count
-    grid = canvas.add_gridspec(len(heights), 1, height_ratios=heights)
-    is_stack = len(heights) > 1 and all(p["x"] == figure["panels"][0]["x"] for p in figure["panels"])
-    for row, count in enumerate(figure["rows"]):
-        for column, cell in enumerate(grid[row].subgridspec(1, count)):
-            panel = next(panels)
+    """All panels, row by row; those below each other with one x axis share its numbers."""
+    rows = rows_of(figure, figure["panels"])
+    heights = [row[0]["height_px"] for row in rows]
+    is_stack = all(row[0]["x"] == rows[-1][0]["x"] for row in rows)
+    grid = canvas.add_gridspec(len(rows), max(figure["rows"]), height_ratios=heights)
+    axes = []
+    for place, row in enumerate(rows):
+        for column, panel in enumerate(row):
+            cell = grid[place, column] if len(row) > 1 else grid[place, :]
             ax = draw_panel(canvas.add_subplot(cell), panel, scale)
-            if is_stack and row + 1 < len(heights):
+            if is_stack and place + 1 < len(rows):
                 ax.set_xlabel("")
                 ax.tick_params(labelbottom=False)
             if column > 0:
                 ax.tick_params(labelleft=False)
             axes.append(ax)
-    canvas.align_ylabels(axes)
     return axes
+
+
+class _Header:
+    """Title, legends and notes from the top left downwards, in inches from the top."""
+
+    def __init__(self, canvas: Figure, scale: float) -> None:
+        self.canvas, self.scale = canvas, scale
+        renderer: Any = FigureCanvasAgg(canvas)
+        self.renderer = renderer.get_renderer()
+        self.end_in = 0.07 * scale
+        self.artists: list[tuple[Any, float]] = []
+
+    def _add(self, artist: Any) -> None:
+        self.artists.append((artist, self.end_in))
+        height_px = artist.get_window_extent(self.renderer).height
+        self.end_in += height_px / self.canvas.dpi + 0.05 * self.scale
+
+    def add_text(self, text: str, colour: str) -> None:
+        if text:
+            self._add(self.canvas.text(LEFT, 1, safe(text), va="top", color=colour))
+
+    def add_legend(self, handles: list[Any], labels: list[str]) -> None:
+        """In one row where that is wide enough, else an entry a row."""
+        is_row = sum(len(label) + 6 for label in labels) <= LINE
+        corner: Any = {"loc": "upper left", "bbox_to_anchor": (LEFT, 1.0)}
+        self._add(self.canvas.legend(handles, labels, ncol=len(labels) if is_row else 1, **corner))
+
+    def place(self, height_in: float) -> None:
+        for artist, top_in in self.artists:
+            if isinstance(artist, Legend):
+                place = (LEFT, 1 - top_in / height_in)
+                artist.set_bbox_to_anchor(place, self.canvas.transFigure)
+            else:
+                artist.set_y(1 - top_in / height_in)
+
+
+def _set_frames(
+    figure: Data, axes: list[Axes], header: _Header, scale: float, height_in: float | None
+) -> None:
+    """Sets the canvas's height, and all frames so that their words have room and edges align."""
+    canvas, width_in = header.canvas, 3.5 * scale
+    panels, rows = rows_of(figure, figure["panels"]), rows_of(figure, axes)
+    left_in = 0.09 * scale + max(
+        ax.yaxis.get_tightbbox(header.renderer).width / canvas.dpi for ax, *_ in rows
+    )
+    at_edge = any(row[-1]["x"]["ticks"][-1]["at"] > 0.999 * row[-1]["x"]["high"] for row in panels)
+    right_in = (0.17 if at_edge else 0.09) * scale
+    above_in = [(0.19 if row[0]["heading"] else 0.06) * scale for row in panels]
+    below_in = [(0.32 if ax.get_xlabel() else 0.04) * scale for ax, *_ in rows]
+    frames_in = [row[0]["height_px"] / DPI * scale for row in panels]
+    words_in = header.end_in + sum(above_in) + sum(below_in)
+    if height_in is not None:
+        share = max(height_in - words_in, 0.1 * height_in) / sum(frames_in)
+        frames_in = [frame_in * share for frame_in in frames_in]
+    height_in = height_in or words_in + sum(frames_in)
+    canvas.set_size_inches(width_in, height_in)
+    header.place(height_in)
+    gap_in, top_in = 0.12 * scale, header.end_in
+    for row, above, frame, below in zip(rows, above_in, frames_in, below_in, strict=True):
+        each_in = (width_in - left_in - right_in - gap_in * (len(row) - 1)) / len(row)
+        top_in += above + frame
+        for column, ax in enumerate(row):
+            x_in = left_in + column * (each_in + gap_in)
+            bottom = 1 - top_in / height_in
+            ax.set_position((x_in / width_in, bottom, each_in / width_in, frame / height_in))
+        top_in += below
 
 
 def draw(figure: Data, scale: float = 1.0, height_in: float | None = None) -> Figure:
     """The whole figure: its title, legend and notes at the top left, and its panels below."""
     canvas = Figure(figsize=(3.5 * scale, 3.0 * scale))
-    renderer = FigureCanvasAgg(canvas).get_renderer()
-    left, top_in = 0.02, 0.07 * scale
-
-    def below(artist: Any, gap: float) -> tuple[Any, float]:
-        """Puts the artist's top there, and the next one's top below it."""
-        nonlocal top_in
-        place, top_in = top_in, top_in + gap * scale
-        top_in += artist.get_window_extent(renderer).height / canvas.dpi
-        return artist, place
-
-    header = []
-    if figure["title"]:
-        header.append(below(canvas.text(left, 1, safe(figure["title"]), va="top"), 0.05))
+    header = _Header(canvas, scale)
+    header.add_text(figure["title"], INK)
     axes = add_panels(figure, canvas, scale)
-    is_single = len(axes) == 1 or figure["kind"] == "forest"
     for ax, panel in zip(axes, figure["panels"], strict=True):
         handles, labels = legend_of(panel, scale)
-        if not handles:
-            continue
-        if is_single:
-            legend = canvas.legend(handles, labels, loc="upper left", bbox_to_anchor=(left, 1.0))
-            legend.set_in_layout(False)
-            header.append(below(legend, 0.05))
-        else:
-            place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncol": len(labels)}
-            ax.legend(handles, labels, borderaxespad=0.3, **place)
+        words = len(panel["heading"]) + sum(len(label) + 6 for label in labels)
+        if labels and (len(axes) == 1 or not panel["heading"] or words > LINE):
+            header.add_legend(handles, labels)
+        elif labels:
+            corner: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncol": len(labels)}
+            ax.legend(handles, labels, borderaxespad=0.3, **corner)
     for note in figure["notes"]:
-        text = "\n".join(textwrap.wrap(safe(note), 84))
-        header.append(below(canvas.text(left, 1, text, va="top", color=GREY), 0.05))
-    heights_px = [max(p["height_px"] for p in row) for row in rows_of(figure)]
-    around_px = 130 + sum(70 if row[0]["heading"] else 20 for row in rows_of(figure))
-    if figure["kind"] in ("forest", "predictions"):
-        around_px += 110 * (len(heights_px) - 1)  # each row has an x axis of its own
-    wanted_in = top_in + (sum(heights_px) + around_px) * scale / DPI
-    height_in = height_in or wanted_in
-    canvas.set_size_inches(3.5 * scale, height_in)
-    for artist, place in header:
-        if hasattr(artist, "set_bbox_to_anchor"):
-            artist.set_bbox_to_anchor((left, 1 - place / height_in), canvas.transFigure)
-        else:
-            artist.set_y(1 - place / height_in)
-            artist.set_in_layout(False)
-    pad = 0.02 * scale
-    canvas.set_layout_engine(
-        "constrained", rect=(0, 0, 1, 1 - top_in / height_in), w_pad=pad, h_pad=pad, hspace=0.02
-    )
+        header.add_text("\n".join(textwrap.wrap(note, LINE + 10)), GREY)
+    _set_frames(figure, axes, header, scale, height_in)
     return canvas
-
-
-def rows_of(figure: Data) -> list[list[Data]]:
-    """The panels that stand beside each other."""
-    panels = iter(figure["panels"])
-    return [[next(panels) for _ in range(count)] for count in figure["rows"]]
 
 
 def font_name(font: str) -> str:
@@ -286,7 +324,9 @@ def font_name(font: str) -> str:
     return font
 
 
-def write(figure: Data, path: str, *, width_px: int = COLUMN_PX, height_px: int = 0, font: str = "") -> None:
+def write(
+    figure: Data, path: str, *, width_px: int = COLUMN_PX, height_px: int = 0, font: str = ""
+) -> None:
     """Draws it into an .svg, .png or .pdf, which appears by rename and holds no date."""
     kind, part = Path(path).suffix[1:], f"{path}.part"
     scale = width_px / COLUMN_PX

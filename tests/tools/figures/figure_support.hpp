@@ -1,32 +1,16 @@
-// What tests of plots share.
+// What tests of figures share.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "sim/core/error.hpp"
 #include "tests/support/covered_record.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tools/plots/curves.hpp"
-#include "tools/plots/gnuplot.hpp"
+#include "tools/figures/curves.hpp"
+#include "tools/figures/figure.hpp"
 
 namespace gnbv {
-
-/// The rows of a data block of a script.
-inline std::vector<std::vector<double>> block(const std::string& script, const std::string& name) {
-  std::istringstream text(script.substr(script.find("$" + name + " << EOD\n")));
-  std::vector<std::vector<double>> rows;
-  std::string line;
-  std::getline(text, line);
-  while (std::getline(text, line) && line != "EOD") {
-    std::istringstream numbers(line);
-    rows.emplace_back();
-    for (double value = 0.0; numbers >> value;) rows.back().push_back(value);
-  }
-  return rows;
-}
 
 /// Twelve views by Eq. (2), those from 4 to 6 and the last from frontiers.
 inline RunRecord scored_record() {
@@ -52,27 +36,35 @@ inline RunRecord scored_record() {
 }
 
 inline RunGroup group_of(const std::vector<RunRecord>& runs) {
-  RunGroup group{.label = "some", .runs = {}};
+  RunGroup group{.label = "some", .runs = {}, .look = look_of_slot(0)};
   for (const RunRecord& run : runs) group.runs.push_back(&run);
   return group;
 }
 
-inline bool has_gnuplot() {
-  try {
-    TempFolder temp;
-    draw_plot("print 1\n", temp.path() / "any");
-    return true;
-  } catch (const BadInput&) {
-    return false;
+/// The series of that name, in the first panel that has it; an empty one where none has.
+inline Series series_of(const Figure& figure, const std::string& name) {
+  for (const FigurePanel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      if (series.name == name) return series;
+    }
   }
+  return {.name = ""};
 }
 
-/// Where gnuplot is installed, it takes the plot's script.
-inline void expect_drawable(const Plot& plot) {
-  if (!has_gnuplot()) return;
-  const TempFolder temp;
-  EXPECT_NO_THROW(
-      draw_plot(plot_script(plot, PlotFormat::svg, {}), temp.path() / (plot.name + ".svg")));
+inline bool has_note(const Figure& figure, const std::string& words) {
+  return std::any_of(figure.notes.begin(), figure.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+inline std::vector<std::string> labels_in(const Figure& figure) {
+  std::vector<std::string> labels;
+  for (const FigurePanel& panel : figure.panels) {
+    for (const Series& series : panel.series) {
+      if (!series.label.empty()) labels.push_back(series.label);
+    }
+  }
+  return labels;
 }
 
 }  // namespace gnbv
