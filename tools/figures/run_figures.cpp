@@ -37,9 +37,11 @@ FigurePanel panel_over_views(const RunRecord& record, std::string heading, Axis 
   return panel;
 }
 
-void name_shades_once(Figure& figure) {
+/// The shades are named once, and a panel that stands alone is a tall one.
+void finish(Figure& figure) {
   Shades& shades = figure.panels.front().shades;
   if (!shades.spans.empty()) shades.label = "frontier views";
+  if (figure.panels.size() == 1) figure.panels.front().height_px = 790;
 }
 
 /// The views that somebody scored, with a value of 0, too: not the start, nor those of a route.
@@ -240,7 +242,7 @@ std::optional<Figure> density_entropy_figure(const RunRecord& record, bool has_d
     add("density", "density (points/voxel)",
         axis_around("", 0.0, *std::max_element(densities.begin(), densities.end())), densities, 1);
   }
-  name_shades_once(figure);
+  finish(figure);
   return figure;
 }
 
@@ -255,7 +257,7 @@ std::optional<Figure> terms_figure(const RunRecord& record) {
   if (terms.is_smooth()) {
     figure.notes.push_back(fmt::format("thin: each view; thick: mean of {} views", kWindow));
   }
-  name_shades_once(figure);
+  finish(figure);
   return figure;
 }
 

@@ -168,6 +168,13 @@ std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure*
   return scored;
 }
 
+/// By voxel size; null where it is not known, since what somebody gave is of the finest alone.
+Json ceiling_json(const std::optional<Ceiling>& ceiling) {
+  if (!ceiling) return nullptr;
+  if (!ceiling->is_given) return ceiling->leaf_outside;
+  return {ceiling->leaf_outside[0], nullptr, nullptr};
+}
+
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.
 Json ramp_json(const std::vector<Rgb>& colours) {
   Json bytes = Json::array();
@@ -223,7 +230,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
     Json run = run_json(records[i], labels[i], packed, structure.number);
     run["slot"] = slots[i];
     ceilings.push_back(ceiling_of(records[i], structure.known.get(), options.threads));
-    run["ceiling"] = ceilings.back() ? Json(ceilings.back()->leaf_outside) : Json(nullptr);
+    run["ceiling"] = ceiling_json(ceilings.back());
     runs.push_back(std::move(run));
     data += bytes_element(fmt::format("run-{}", i), packed.bytes);
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());
