@@ -65,7 +65,7 @@ forbidden tools/run/run_directory.cpp '#include "tools/mission/mission.hpp"'
 forbidden tools/mission/mission.cpp '#include "tools/render/picture.hpp"'
 forbidden tools/sweep/run_cells.cpp '#include "tools/gnbv/commands.hpp"'
 forbidden tools/paper/page.cpp '#include "tools/gnbv/bench_runs.hpp"'
-forbidden tools/plots/curves.cpp '#include "tools/paper/verdicts.hpp"'
+forbidden tools/figures/curves.cpp '#include "tools/paper/verdicts.hpp"'
 allowed tools/paper/page.cpp '#include "tools/surface/surface.hpp"'
 forbidden tools/terminal/progress.cpp '#include "scenarios/scenario.hpp"'
 forbidden sim/mesh/triangle_mesh.cpp '#include "sensors/frames.hpp"'
@@ -105,7 +105,7 @@ library pcl/point_types.h planner/symmetry/symmetry_pcl.cpp planner/symmetry/sym
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
 library GL/osmesa.h tools/render/render.cpp tools/render/view.cpp tools/mission/mission.cpp
 library CLI/CLI.hpp tools/gnbv/main.cpp tools/mission/mission.cpp
-library freetype/freetype.h tools/render/lettering.cpp tools/render/lettering.hpp tools/plots/gnuplot.cpp
+library freetype/freetype.h tools/render/lettering.cpp tools/render/lettering.hpp tools/figures/figure.cpp
 library ft2build.h tools/render/lettering.cpp tools/render/caption.cpp
 library stb/stb_rect_pack.h tools/surface/rectangle_packing.cpp tools/surface/rectangle_packing.hpp
 allowed sensors/embree_scene.hpp '#include <embree3/rtcore.h>'

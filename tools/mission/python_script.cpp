@@ -6,6 +6,7 @@
 
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tools/mission/child_pipe.hpp"
 
 namespace gnbv {
@@ -29,6 +30,9 @@ Json answer_of(const std::string& program, const std::string& what, const Json& 
 }
 
 Json result_of(const Json& answer) {
+  if (answer.value("errno", 0) != 0) {
+    refuse_to_write(answer.value("file", ""), answer.value("errno", 0));
+  }
   if (answer.contains("error")) throw BadInput(answer["error"].get<std::string>());
   return answer.at("answer");
 }

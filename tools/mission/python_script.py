@@ -1,7 +1,8 @@
 """Runs a module of the program's; `python3 -c` does, so that no file of it has to be installed. Its
 stdin: a line of {"modules": {name: source}, "entry", "what", "apt", "pip"}, and one that the entry's
 main() is called with (python_script.cpp). Its stdout: one line, {"answer": ...} or {"error": one
-sentence}, with "missing" where a package is not there."""
+sentence}, with "missing" where a package is not there, with "errno" and "file" of what the system
+refused."""
 
 import sys
 
@@ -36,7 +37,7 @@ def main() -> dict:
 try:
     answer = main()
 except OSError as error:
-    answer = {"error": f"{error.filename}: {error.strerror}" if error.filename else str(error)}
+    answer = {"error": str(error), "errno": error.errno or 0, "file": str(error.filename or "")}
 except Exception as error:
     at = error.__traceback__
     while at is not None and at.tb_next is not None:

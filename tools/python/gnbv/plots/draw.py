@@ -328,16 +328,20 @@ def write(
     figure: Data, path: str, *, width_px: int = COLUMN_PX, height_px: int = 0, font: str = ""
 ) -> None:
     """Draws it into an .svg, .png or .pdf, which appears by rename and holds no date."""
-    kind, part = Path(path).suffix[1:], f"{path}.part"
-    scale = width_px / COLUMN_PX
+    kind, scale = Path(path).suffix[1:], width_px / COLUMN_PX
+    # named as the program names what it renames
+    name = f".{Path(path).stem}.part-{os.uname().nodename}-{os.getpid()}.{kind}"
+    part = Path(path).with_name(name)
     with matplotlib.style.context(["default", style(scale, font)]):
         canvas = draw(figure, scale, height_px / DPI or None)
         try:
             canvas.savefig(part, format=kind, dpi=DPI, metadata=METADATA[kind])
-            os.replace(part, path)
-        except BaseException:
-            Path(part).unlink(missing_ok=True)
+            part.replace(path)
+        except OSError as error:
+            error.filename = path
             raise
+        finally:
+            part.unlink(missing_ok=True)
 
 
 def main(request: Data) -> int:
