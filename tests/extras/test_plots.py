@@ -1,8 +1,11 @@
-"""`gnbv plot` draws: every kind in every format, the same bytes each time, whatever the names are.
-GNBV names the program; never skipped, since tools/setup brings matplotlib."""
+"""`gnbv plot` draws: every kind in every format, the same bytes each time, whatever the names are;
+its data are as their schema says. GNBV names the program; never skipped, since tools/setup brings
+matplotlib."""
 
+import csv
 import json
 import os
+import re
 import struct
 import subprocess
 import sys
@@ -63,6 +66,79 @@ def test_every_kind_in_every_format_has_the_same_bytes_each_time(runs, tmp_path)
         for panel in figure["panels"]:  # the words of the data are those of the picture
             for series in panel["series"]:
                 assert series["label"].replace("'", "&#39;") in svg.replace("&apos;", "&#39;")
+
+
+TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int}
+TYPES |= {"number": (int, float), "null": type(None)}
+
+
+def faults(value, rule: dict, root: dict, at: str = "") -> list[str]:
+    """What a JSON Schema with our few keywords has against a value; an unknown keyword is a fault."""
+    found, rule = [], dict(rule)
+    if "$ref" in rule:
+        return faults(value, root["definitions"][rule["$ref"].rsplit("/", 1)[1]], root, at)
+    types = rule.pop("type", [])
+    if types and not any(
+        isinstance(value, TYPES[t]) for t in ([types] if isinstance(types, str) else types)
+    ):
+        return [f"{at}: no {types}"]
+    bad = {
+        "const": lambda k: value != k,
+        "enum": lambda k: value not in k,
+        "required": lambda k: not set(k) <= set(value),
+        "additionalProperties": lambda k: not set(value) <= set(rule["properties"]),
+        "pattern": lambda k: not re.search(k, value),
+        "minimum": lambda k: value < k,
+        "maximum": lambda k: value > k,
+        "exclusiveMinimum": lambda k: value <= k,
+        "minItems": lambda k: value is not None and len(value) < k,
+        "maxItems": lambda k: value is not None and len(value) > k,
+    }
+    for word, wanted in rule.items():
+        if word == "properties":
+            for key in set(value) & set(wanted):
+                found += faults(value[key], wanted[key], root, f"{at}/{key}")
+        elif word == "items":
+            for item in value or []:
+                found += faults(item, wanted, root, f"{at}[]")
+        elif word not in ("$schema", "title", "description", "definitions") and bad[word](wanted):
+            found.append(f"{at}: {word}")
+    return found
+
+
+def test_data_are_as_their_schema_says_and_the_csv_holds_them(runs, tmp_path):
+    plot(*runs, "--plots", KINDS, "--title", HOSTILE, "--format", "json", "-o", tmp_path / "runs")
+    bench = [
+        "--seeds",
+        2,
+        "--no-ceiling",
+        "--quiet",
+        "--set",
+        "planner.termination.max_iterations=2",
+    ]
+    bench += ["--out", tmp_path / "bench", "--plots", tmp_path / "bench_plots"]
+    compared = gnbv("compare", "smoke", "--utilities", "proposed,isler", *bench)
+    assert compared.returncode == 0, compared.stderr
+    schema = json.loads(gnbv("schema", "figures").stdout)
+    kinds = set()
+    for folder in (tmp_path / "runs", tmp_path / "bench_plots"):
+        document = json.loads((folder / "figures.json").read_text())
+        assert faults(document, schema, schema) == []
+        for figure in document["figures"]:
+            kinds.add(figure["kind"])
+            with open(folder / f"{figure['name']}.csv", newline="") as file:
+                rows = csv.DictReader(file)
+                for series in (one for panel in figure["panels"] for one in panel["series"]):
+                    for i in range(max(len(series["x"]), len(series["y"]))):
+                        row = next(rows)
+                        assert row["series"] == series["name"]
+                        for key in ("x", "y", "low", "high"):
+                            known = series[key][i] if i < len(series[key]) else None
+                            assert (float(row[key]) if row[key] else None) == known
+                assert list(rows) == []
+    assert kinds == set(schema["definitions"]["figure"]["properties"]["kind"]["enum"])
+    for key, wrong in (("schema", 2), ("figures", [{}]), ("mine", 1)):
+        assert faults(document | {key: wrong}, schema, schema)
 
 
 def test_words_are_the_users_and_mean_nothing_to_matplotlib(runs, tmp_path):

@@ -13,14 +13,6 @@ namespace {
 
 double size_of(double low, double high) { return std::max({std::abs(low), std::abs(high), 1.0}); }
 
-Axis on_steps(std::string_view label, double low, double high, double step) {
-  Axis axis{.label = std::string(label),
-            .low = step * std::floor(low / step + 1e-9),
-            .high = step * std::ceil(high / step - 1e-9)};
-  axis.ticks = ticks_of(axis.low, axis.high, step);
-  return axis;
-}
-
 int decimals_of(double step) {
   int decimals = 0;
   for (; decimals < 7 && std::abs(step - std::round(step)) > 1e-6 * step; step *= 10.0) ++decimals;
@@ -76,24 +68,12 @@ Axis axis_around(std::string_view label, double low, double high, int most_steps
     low -= room;
     high += room;
   }
-  return on_steps(label, low, high, even_step(high - low, most_steps));
-}
-
-Axis close_axis(std::string_view label, double low, double high) {
-  constexpr double kMostSteps = 3.0;
-  if (high - low < 1e-9 * size_of(low, high)) return axis_around(label, low, high, 3);
-  const double power = std::pow(10.0, std::floor(std::log10((high - low) / kMostSteps)));
-  double best_step = 0.0;
-  double best_span = 0.0;
-  for (const double factor : {50.0, 25.0, 20.0, 10.0, 5.0, 2.5, 2.0, 1.0}) {
-    const double step = factor * power;
-    const double steps = std::ceil(high / step - 1e-9) - std::floor(low / step + 1e-9);
-    if (steps < 2.0 || steps > kMostSteps) continue;
-    if (best_step > 0.0 && steps * step >= (1.0 - 1e-9) * best_span) continue;
-    best_step = step;
-    best_span = steps * step;
-  }
-  return best_step > 0.0 ? on_steps(label, low, high, best_step) : axis_around(label, low, high, 3);
+  const double step = even_step(high - low, most_steps);
+  Axis axis{.label = std::string(label),
+            .low = step * std::floor(low / step + 1e-9),
+            .high = step * std::ceil(high / step - 1e-9)};
+  axis.ticks = ticks_of(axis.low, axis.high, step);
+  return axis;
 }
 
 Axis log_axis(std::string_view label, double low, double high) {

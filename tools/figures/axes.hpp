@@ -30,10 +30,6 @@ Axis axis_from(std::string_view label, double low, double high, int most_steps =
 /// Around both, on whole even steps. Requires low <= high.
 Axis axis_around(std::string_view label, double low, double high, int most_steps = 5);
 
-/// Around both, on as few even steps, two at least and three at most, as lie closest: for low
-/// panels.
-Axis close_axis(std::string_view label, double low, double high);
-
 /// A logarithmic axis on whole powers of ten around both. Requires 0 < low < high.
 Axis log_axis(std::string_view label, double low, double high);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "bench/compare/statistics.hpp"
@@ -14,7 +13,6 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kSteps = 240;     // some 4 pixels of a column of a paper each
 constexpr double kLeastError_m = 1e-5;  // what is less lies on the axis's end
 
 /// Roll, pitch (nose down positive, as the body frame FLU turns) and yaw in degrees.
@@ -90,97 +88,68 @@ std::array<double, 2> range_of(std::span<const Series> all) {
   return range;
 }
 
-Axis time_axis(const std::vector<double>& times_s) {
-  const double room_s = times_s.front() == times_s.back() ? 0.5 : 0.0;
-  return axis_from("mission time (s)", times_s.front() - room_s, times_s.back() + room_s);
-}
-
-/// A panel whose axis holds those series and zero, with few marks: panels are low.
-FigurePanel low_panel(std::string heading, std::vector<Series> series, const Axis& x) {
+/// A panel whose axis holds those series and zero, with few ticks: panels are low.
+FigurePanel low_panel(std::string heading, std::vector<Series> series,
+                      std::span<const double> times_s) {
   const auto [low, high] = range_of(series);
+  const double room_s = times_s.front() == times_s.back() ? 0.5 : 0.0;
   return {.heading = std::move(heading),
-          .x = x,
-          .y = close_axis("", std::min(low, 0.0), std::max(high, 0.0)),
+          .x = axis_from("mission time (s)", times_s.front() - room_s, times_s.back() + room_s),
+          .y = axis_around("", std::min(low, 0.0), std::max(high, 0.0), 3),
           .series = std::move(series),
           .height_px = 180};
 }
 
-std::string tracking_title(const RunRecord& record) {
-  const WindConfig& wind = record.scenario.wind;
-  const double gust_m_s = wind.gust_w20_m_s;
-  return fmt::format("{}: wind {:.3g} m/s{}", run_and_seed(record), wind.mean_world_m_s.norm(),
-                     gust_m_s > 0.0 ? fmt::format(", gusts of {:.3g} m/s at 20 ft", gust_m_s) : "");
+/// What line and band are, where samples are drawn as those of steps.
+void note_steps(std::span<const double> times_s, std::string_view band, Figure& figure) {
+  const std::size_t steps = steps_of(times_s).size();
+  if (steps == 0) return;
+  const double step_s = (times_s.back() - times_s.front()) / static_cast<double>(steps - 1);
+  figure.notes.push_back(fmt::format("line: mean of each {:.2g} s; band: {}", step_s, band));
 }
 
 }  // namespace
 
-Traces::Traces(std::vector<double> times_s, double share)
-    : times_s_(std::move(times_s)), share_(share) {
-  GNBV_CHECK(!times_s_.empty() && share > 0.0 && share <= 1.0, "{} samples, {} of them",
-             times_s_.size(), share);
-  const double begin_s = times_s_.front();
-  step_s_ = (times_s_.back() - begin_s) / static_cast<double>(kSteps);
-  if (times_s_.size() <= 2 * kSteps || !(step_s_ > 0.0)) return;
-  std::size_t last = kSteps;  // none yet
-  for (std::size_t i = 0; i < times_s_.size(); ++i) {
-    const std::size_t step =
-        std::min(kSteps - 1, static_cast<std::size_t>((times_s_[i] - begin_s) / step_s_));
-    if (step == last) continue;
+std::vector<std::size_t> steps_of(std::span<const double> times_s) {
+  constexpr double kSteps = 240.0;  // some 4 pixels of a column of a paper each
+  const double step_s = (times_s.back() - times_s.front()) / kSteps;
+  std::vector<std::size_t> begins;
+  if (static_cast<double>(times_s.size()) <= 2.0 * kSteps || !(step_s > 0.0)) return begins;
+  double last = -1.0;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double step = std::min(kSteps - 1.0, std::floor((times_s[i] - times_s[0]) / step_s));
+    if (step > last) begins.push_back(i);
     last = step;
-    begins_.push_back(i);
-    middles_s_.push_back(begin_s + (static_cast<double>(step) + 0.5) * step_s_);
   }
-  begins_.push_back(times_s_.size());
+  begins.push_back(times_s.size());
+  return begins;
 }
 
-std::vector<double> Traces::of_step(const std::vector<double>& values, std::size_t step) const {
-  std::vector<double> of_step(values.begin() + static_cast<std::ptrdiff_t>(begins_[step]),
-                              values.begin() + static_cast<std::ptrdiff_t>(begins_[step + 1]));
-  std::sort(of_step.begin(), of_step.end());
-  return of_step;
-}
-
-Series Traces::series(std::string name, const std::vector<double>& values,
-                      std::size_t colour) const {
+Series trace(std::string name, const std::vector<double>& times_s,
+             const std::vector<double>& values, std::size_t colour, double from, double to) {
   Series series{.name = std::move(name), .look = {.colour = std::string(kPalette.at(colour))}};
-  if (begins_.empty()) {
-    series.x = times_s_;
+  const std::vector<std::size_t> begins = steps_of(times_s);
+  if (begins.empty()) {
+    series.x = times_s;
     series.y = values;
-    return series;
   }
-  series.x = middles_s_;
-  for (std::size_t step = 0; step < middles_s_.size(); ++step) {
-    const std::vector<double> sorted = of_step(values, step);
-    const double last = static_cast<double>(sorted.size() - 1);
-    const auto at = [&](double share) {
-      return sorted[static_cast<std::size_t>(std::lround(share * last))];
+  for (std::size_t step = 0; step + 1 < begins.size(); ++step) {
+    const auto of_step = [&](const std::vector<double>& all) {
+      return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(begins[step]),
+                                 all.begin() + static_cast<std::ptrdiff_t>(begins[step + 1]));
     };
+    std::vector<double> sorted = of_step(values);
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+      const double place = share * static_cast<double>(sorted.size() - 1);
+      return sorted[static_cast<std::size_t>(std::lround(place))];
+    };
+    series.x.push_back(mean_of(of_step(times_s)));
     series.y.push_back(mean_of(sorted));
-    series.low.push_back(at(0.5 - 0.5 * share_));
-    series.high.push_back(at(0.5 + 0.5 * share_));
+    series.low.push_back(at(from));
+    series.high.push_back(at(to));
   }
   return series;
-}
-
-std::optional<Series> Traces::most(std::string name, const std::vector<double>& values,
-                                   std::size_t colour) const {
-  if (begins_.empty()) return std::nullopt;
-  Series series{.name = std::move(name),
-                .look = {.colour = std::string(kPalette.at(colour))},
-                .width_pt = 0.4,
-                .x = middles_s_};
-  for (std::size_t step = 0; step < middles_s_.size(); ++step) {
-    series.y.push_back(of_step(values, step).back());
-  }
-  return series;
-}
-
-std::string Traces::note() const {
-  if (begins_.empty()) return "";
-  const int beyond = static_cast<int>(std::lround(50.0 * (1.0 - share_)));
-  return fmt::format(
-      "line: mean of each {:.2g} s; band: {}", step_s_,
-      beyond == 0 ? "least to most" : fmt::format("{} to {} %", beyond, 100 - beyond));
 }
 
 Series yaw_series(std::span<const double> times_s, std::span<const double> yaws_deg) {
@@ -206,30 +175,24 @@ Series yaw_series(std::span<const double> times_s, std::span<const double> yaws_
 std::optional<Figure> flight_figure(const RunRecord& record) {
   const Flown flown = flown_between_views(record);
   if (flown.times_s.empty()) return std::nullopt;
-  const Traces traces(flown.times_s);
-  const Axis x = time_axis(flown.times_s);
+  Figure figure{.name = "flight", .kind = "flight", .title = run_and_seed(record)};
+  note_steps(flown.times_s, "least to most", figure);
+  const auto add = [&](std::string heading, std::vector<Series> series) {
+    figure.panels.push_back(low_panel(std::move(heading), std::move(series), flown.times_s));
+  };
   std::vector<Series> positions;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string name(1, static_cast<char>('x' + axis));
-    positions.push_back(traces.series(name, flown.positions_m.at(axis), axis));
+    positions.push_back(trace(name, flown.times_s, flown.positions_m.at(axis), axis));
     positions.back().label = name;
   }
-  FigurePanel yaw{.heading = "yaw (deg), each sample",
-                  .x = x,
-                  .y = {.low = -200.0, .high = 200.0, .ticks = ticks_of(-180.0, 180.0, 180.0)},
-                  .series = {yaw_series(flown.times_s, flown.attitudes_deg[2])},
-                  .height_px = 180};
-  const auto panel = [&](std::string heading, std::string name, const std::vector<double>& values) {
-    return low_panel(std::move(heading), {traces.series(std::move(name), values, 0)}, x);
-  };
-  Figure figure{.name = "flight", .kind = "flight", .title = run_and_seed(record)};
-  if (!traces.note().empty()) figure.notes.push_back(traces.note());
-  figure.panels = {low_panel("position (m)", std::move(positions), x),
-                   std::move(yaw),
-                   panel("roll (deg)", "roll", flown.attitudes_deg[0]),
-                   panel("pitch (deg)", "pitch", flown.attitudes_deg[1]),
-                   panel("speed (m/s)", "speed", flown.speeds_m_s),
-                   panel("distance from planned leg (m)", "distance", flown.errors_m)};
+  add("position (m)", std::move(positions));
+  add("yaw (deg), each sample", {yaw_series(flown.times_s, flown.attitudes_deg[2])});
+  figure.panels.back().y = {.low = -200.0, .high = 200.0, .ticks = ticks_of(-180.0, 180.0, 180.0)};
+  add("roll (deg)", {trace("roll", flown.times_s, flown.attitudes_deg[0], 0)});
+  add("pitch (deg)", {trace("pitch", flown.times_s, flown.attitudes_deg[1], 0)});
+  add("speed (m/s)", {trace("speed", flown.times_s, flown.speeds_m_s, 0)});
+  add("distance from planned leg (m)", {trace("distance", flown.times_s, flown.errors_m, 0)});
   return figure;
 }
 
@@ -239,29 +202,39 @@ std::optional<Figure> tracking_figure(const RunRecord& record) {
   for (double& error_m : flown.errors_m) error_m = std::max(error_m, kLeastError_m);
   const double margin_m = record.scenario.planner.validity.collision_radius_m -
                           record.scenario.vehicle.airframe.hull_radius_m;
-  const Traces traces(flown.times_s, 0.9);
-  const Axis x = time_axis(flown.times_s);
-  FigurePanel error{.heading = "tracking error (distance from the planned leg, m)", .x = x};
+  const WindConfig& wind = record.scenario.wind;
+  Figure figure{.name = "tracking", .kind = "tracking"};
+  figure.title = fmt::format(
+      "{}: wind {:.3g} m/s{}", run_and_seed(record), wind.mean_world_m_s.norm(),
+      wind.gust_w20_m_s > 0.0 ? fmt::format(", gusts of {:.3g} m/s at 20 ft", wind.gust_w20_m_s)
+                              : "");
+  note_steps(flown.times_s, "5 to 95 %; thin: largest error", figure);
+  std::vector<Series> errors;
   if (margin_m > kLeastError_m) {
-    error.series.push_back({.name = "safety margin",
-                            .label = fmt::format("safety margin, {:.2f} m", margin_m),
-                            .mark = Mark::level,
-                            .look = {.colour = std::string(kPalette[1]), .dashes = {4.0, 3.0}},
-                            .y = {margin_m}});
+    errors.push_back({.name = "safety margin",
+                      .label = fmt::format("safety margin, {:.2f} m", margin_m),
+                      .mark = Mark::level,
+                      .look = {.colour = std::string(kPalette[1]), .dashes = {4.0, 3.0}},
+                      .y = {margin_m}});
   }
-  Figure figure{.name = "tracking", .kind = "tracking", .title = tracking_title(record)};
-  if (!traces.note().empty()) figure.notes.push_back(traces.note() + "; thin: largest error");
-  if (auto most = traces.most("largest error", flown.errors_m, 0)) {
-    error.series.push_back(std::move(*most));
+  Series error = trace("tracking error", flown.times_s, flown.errors_m, 0, 0.05, 0.95);
+  if (!error.low.empty()) {
+    Series most = trace("largest error", flown.times_s, flown.errors_m, 0);
+    most.y = std::move(most.high);
+    most.high.clear();
+    most.low.clear();
+    most.width_pt = 0.4;
+    errors.push_back(std::move(most));
   }
-  error.series.push_back(traces.series("tracking error", flown.errors_m, 0));
-  const auto [least_m, most_m] = range_of(error.series);
-  error.y = log_axis("", least_m, std::max(most_m, 1.001 * least_m));
-  FigurePanel tilt{.heading = "tilt (angle of the body from upright, deg)", .x = x};
-  tilt.series = {traces.series("tilt", flown.tilts_deg, 0)};
-  tilt.y = axis_around("", 0.0, range_of(tilt.series)[1]);
-  error.height_px = tilt.height_px = 360;
-  figure.panels = {std::move(error), std::move(tilt)};
+  errors.push_back(std::move(error));
+  const auto [least_m, most_m] = range_of(errors);
+  figure.panels = {
+      low_panel("tracking error (distance from the planned leg, m)", std::move(errors),
+                flown.times_s),
+      low_panel("tilt (angle of the body from upright, deg)",
+                {trace("tilt", flown.times_s, flown.tilts_deg, 0, 0.05, 0.95)}, flown.times_s)};
+  figure.panels[0].y = log_axis("", least_m, std::max(most_m, 1.001 * least_m));
+  for (FigurePanel& panel : figure.panels) panel.height_px = 360;
   return figure;
 }
 

@@ -24,30 +24,14 @@ std::optional<Figure> tracking_figure(const RunRecord& record);
 /// fro.
 Series yaw_series(std::span<const double> times_s, std::span<const double> yaws_deg);
 
-/// Samples of a flight over time: as they are, or of many those of each of 240 even steps: their
-/// mean, and a band that holds `share` of them.
-class Traces {
- public:
-  /// Requires ascending times and 0 < share <= 1.
-  explicit Traces(std::vector<double> times_s, double share = 1.0);
+/// Where each of 240 even steps of time begins among many samples, and their end; nothing of few,
+/// which are drawn as they are.
+std::vector<std::size_t> steps_of(std::span<const double> times_s);
 
-  /// Requires a value a time.
-  Series series(std::string name, const std::vector<double>& values, std::size_t colour) const;
-  /// The most of the values in each step; nothing where the samples are drawn.
-  std::optional<Series> most(std::string name, const std::vector<double>& values,
-                             std::size_t colour) const;
-  /// What line and band are: "line: mean of each 6 s; band: least to most"; empty where the samples
-  /// are drawn.
-  std::string note() const;
-
- private:
-  std::vector<double> of_step(const std::vector<double>& values, std::size_t step) const;
-
-  std::vector<double> times_s_;
-  double share_;
-  double step_s_ = 0.0;
-  std::vector<std::size_t> begins_;  // of the steps that have samples, and the end; empty: few
-  std::vector<double> middles_s_;
-};
+/// Samples over time: as they are, or of many the mean of each step, and a band from that share of
+/// its samples to that one.
+Series trace(std::string name, const std::vector<double>& times_s,
+             const std::vector<double>& values, std::size_t colour, double from = 0.0,
+             double to = 1.0);
 
 }  // namespace gnbv

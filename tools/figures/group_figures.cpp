@@ -9,7 +9,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/figures/coverage_levels.hpp"
-#include "tools/figures/drawn_groups.hpp"
 
 namespace gnbv {
 namespace {
@@ -222,43 +221,25 @@ std::optional<Figure> reach_figure(std::span<const RunGroup> groups, Effort effo
                 .panels = {std::move(panel)}};
 }
 
-MeanSeries mean_series(std::string label, std::string method,
-                       std::vector<std::vector<double>> seeds) {
-  std::erase_if(seeds, [](const std::vector<double>& seed) { return seed.empty(); });
-  MeanSeries series{.label = std::move(label), .method = std::move(method)};
-  std::size_t longest = 0;
-  for (const std::vector<double>& seed : seeds) longest = std::max(longest, seed.size());
-  for (std::size_t view = 0; view < longest; ++view) {
-    std::vector<double> values;
-    for (const auto& seed : seeds) values.push_back(seed[std::min(view, seed.size() - 1)]);
-    series.by_view.push_back(estimate_mean(values));
+std::optional<DrawnGroup> density_group(std::string label, SeriesLook look,
+                                        std::vector<std::vector<double>> missions) {
+  std::vector<StepCurve> curves;
+  for (std::vector<double>& mission : missions) {
+    if (!mission.empty()) curves.push_back(steps_over_views(std::move(mission)));
   }
-  series.seeds = std::move(seeds);
-  return series;
+  if (curves.empty()) return std::nullopt;
+  return DrawnGroup(std::move(label), std::move(look), std::move(curves));
 }
 
-Figure mean_density_figure(std::span<const MeanSeries> series, std::string_view title,
-                           std::span<const SeriesLook> looks) {
-  std::vector<std::string> methods;
-  for (const MeanSeries& each : series) methods.push_back(each.method);
-  const std::vector<SeriesLook> of_methods = method_looks(methods);
-  std::vector<DrawnGroup> drawn;
-  double highest = 0.0;
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    std::vector<StepCurve> curves;
-    for (const std::vector<double>& seed : series[i].seeds) {
-      curves.push_back(steps_over_views(seed));
-      if (series[i].seeds.size() > 2) continue;
-      highest = std::max(highest, *std::max_element(seed.begin(), seed.end()));
-    }
-    for (const MeanEstimate& y : series[i].by_view) highest = std::max(highest, y.mean);
-    drawn.emplace_back(series[i].label, looks.empty() ? of_methods[i] : looks[i],
-                       std::move(curves));
-  }
+Figure mean_density_figure(std::span<const DrawnGroup> groups, std::string_view title) {
   Figure figure{.name = "density", .kind = "density", .title = std::string(title)};
   FigurePanel panel{.height_px = kPanel_px};
-  add_groups(drawn, Mark::line, panel, figure.notes);
-  panel.x = axis_from("views", 0.0, kBeyond * longest_of(drawn));
+  add_groups(groups, Mark::line, panel, figure.notes);
+  double highest = 0.0;
+  for (const Series& series : panel.series) {
+    highest = std::max(highest, *std::max_element(series.y.begin(), series.y.end()));
+  }
+  panel.x = axis_from("views", 0.0, kBeyond * longest_of(groups));
   panel.y = axis_around("density (points/voxel)", 0.0, 1.15 * highest);
   figure.panels.push_back(std::move(panel));
   return figure;
@@ -266,24 +247,20 @@ Figure mean_density_figure(std::span<const MeanSeries> series, std::string_view 
 
 std::optional<Figure> density_figure(std::span<const RunGroup> groups) {
   const std::string title = common_scenario(groups);
-  std::vector<MeanSeries> all;
-  std::vector<SeriesLook> looks;
+  std::vector<DrawnGroup> drawn;
   for (const RunGroup& group : groups) {
-    std::vector<std::vector<double>> seeds;
+    std::vector<std::vector<double>> missions;
     for (const RunRecord* const run : group.runs) {
-      seeds.emplace_back();
+      missions.emplace_back();
       for (const ViewRecord& view : run->views) {
-        seeds.back().push_back(view.density_points_per_voxel);
+        missions.back().push_back(view.density_points_per_voxel);
       }
     }
-    MeanSeries series =
-        mean_series(label_below(title, group.label), method_of(*group.runs.front()), seeds);
-    if (series.by_view.empty()) continue;
-    all.push_back(std::move(series));
-    looks.push_back(group.look);
+    auto densities = density_group(label_below(title, group.label), group.look, missions);
+    if (densities) drawn.push_back(std::move(*densities));
   }
-  if (all.empty()) return std::nullopt;
-  return mean_density_figure(all, title, looks);
+  if (drawn.empty()) return std::nullopt;
+  return mean_density_figure(drawn, title);
 }
 
 }  // namespace gnbv

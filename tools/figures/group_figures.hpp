@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/figures/curves.hpp"
+#include "tools/figures/drawn_groups.hpp"
 #include "tools/figures/figure.hpp"
 
 namespace gnbv {
@@ -33,24 +33,15 @@ std::optional<Figure> coverage_end_figure(std::span<const RunGroup> groups, Effo
 /// is known count; nothing when there is none.
 std::optional<Figure> reach_figure(std::span<const RunGroup> groups, Effort effort, double share);
 
-/// Density over the views as a mean over seeds.
-struct MeanSeries {
-  std::string label;
-  std::string method;  // of method_slots()
-  std::vector<MeanEstimate> by_view = {};
-  std::vector<std::vector<double>> seeds = {};  // the densities of each mission
-};
+/// The densities of missions after each view, the first at 1; one that has ended keeps its own, and
+/// one without views is left out. Nothing where all are.
+std::optional<DrawnGroup> density_group(std::string label, SeriesLook look,
+                                        std::vector<std::vector<double>> missions);
 
-/// The mean of missions, those with a view; one that has ended keeps its density. Requires one.
-MeanSeries mean_series(std::string label, std::string method,
-                       std::vector<std::vector<double>> seeds);
+/// "density": a line for each group, drawn as coverage_figure() draws its groups. Requires a group.
+Figure mean_density_figure(std::span<const DrawnGroup> groups, std::string_view title);
 
-/// "density": a line for each series, drawn as coverage_figure() draws its groups; the first view
-/// is 1. `looks` are the series' own, or those of their methods. Requires a series that has a view.
-Figure mean_density_figure(std::span<const MeanSeries> series, std::string_view title,
-                           std::span<const SeriesLook> looks = {});
-
-/// The densities of groups of runs, as far as they took views.
+/// The densities of groups of runs. Nothing where none took a view.
 std::optional<Figure> density_figure(std::span<const RunGroup> groups);
 
 }  // namespace gnbv

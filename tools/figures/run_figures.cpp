@@ -79,69 +79,49 @@ struct Eq2 {
   double gamma = 0.0;
 };
 
-/// The panels of one run's terms, each with the views behind their means where these are many.
-class TermPanels {
- public:
-  TermPanels(const RunRecord& record, std::vector<ViewRecord> views)
-      : record_(record), views_(std::move(views)), counts_(counts_of(views_)) {}
+/// The scored views as panels, one below the other.
+struct TermPanels {
+  const RunRecord& record;
+  std::vector<ViewRecord> views;
+  int height_px = 0;
+  std::vector<FigurePanel> panels = {};
 
-  bool is_smooth() const { return views_.size() > kManyViews; }
-
-  template <typename Value>
-  std::vector<double> column(const Value& value) const {
-    std::vector<double> column;
-    for (const ViewRecord& view : views_) column.push_back(value(view.decision.score));
-    return column;
-  }
-
-  /// An axis from 0 that holds all of it that is known.
-  FigurePanel panel(std::string heading, std::span<const double> values, int height_px) const {
-    double most = 0.0;
-    for (const double value : values) most = std::isnan(value) ? most : std::max(most, value);
-    return panel_over_views(record_, std::move(heading), close_axis("", 0.0, most), height_px);
-  }
-
-  FigurePanel lines(std::string heading, const std::string& name, const std::vector<double>& values,
-                    std::size_t colour, int height_px) const {
-    FigurePanel panel = this->panel(std::move(heading), values, height_px);
-    const SeriesLook look = look_in(kPalette.at(colour));
-    if (is_smooth()) {
-      panel.series.push_back({.name = name + ", each view",
-                              .look = look,
-                              .width_pt = 0.3,
-                              .opacity = 0.35,
-                              .x = counts_,
-                              .y = values});
-    } else {  // a point each: one may have no neighbours
-      panel.series.push_back({.name = name + ", each view",
-                              .mark = Mark::points,
-                              .look = look,
-                              .width_pt = 0.0,
-                              .size_pt = 1.4,
-                              .x = counts_,
-                              .y = values});
-    }
-    panel.series.push_back({.name = name, .look = look, .x = counts_, .y = smooth(values)});
-    return panel;
-  }
-
-  Series area(std::string name, std::string_view colour, const std::vector<double>& low,
-              const std::vector<double>& high) const {
-    Series series{.name = name, .label = name, .mark = Mark::area, .look = look_in(colour)};
-    series.x = counts_;
-    series.low = smooth(low);
-    series.high = series.y = smooth(high);
-    return series;
-  }
-
- private:
+  bool is_smooth() const { return views.size() > kManyViews; }
   std::vector<double> smooth(const std::vector<double>& values) const {
     return moving_mean(values, is_smooth() ? kWindow : 1);
   }
 
-  const RunRecord& record_;
-  std::vector<ViewRecord> views_;
-  std::vector<double> counts_;
+  template <typename Value>
+  std::vector<double> column(const Value& value) const {
+    std::vector<double> column;
+    for (const ViewRecord& view : views) column.push_back(value(view.decision.score));
+    return column;
+  }
+
+  /// On an axis from 0 that holds all of it that is known.
+  FigurePanel& add(std::string heading, std::span<const double> values) {
+    double most = 0.0;
+    for (const double value : values) most = std::isnan(value) ? most : std::max(most, value);
+    panels.push_back(
+        panel_over_views(record, std::move(heading), axis_around("", 0.0, most, 3), height_px));
+    return panels.back();
+  }
+
+  /// Each view behind the means of many; of few as a point, since one may have no neighbours.
+  void add_line(std::string heading, const std::string& name, std::size_t colour,
+                const std::vector<double>& values) {
+    FigurePanel& panel = add(std::move(heading), values);
+    Series each{.name = name + ", each view",
+                .mark = is_smooth() ? Mark::line : Mark::points,
+                .look = look_in(kPalette.at(colour)),
+                .width_pt = is_smooth() ? 0.3 : 0.0,
+                .size_pt = 1.4,
+                .opacity = is_smooth() ? 0.35 : 1.0,
+                .x = counts_of(views),
+                .y = values};
+    Series mean{.name = name, .look = each.look, .x = each.x, .y = smooth(values)};
+    panel.series = {std::move(each), std::move(mean)};
+  }
 };
 
 /// Q, and what there is of a prediction that nobody sees beside the density.
@@ -152,7 +132,7 @@ std::string heading_of_quality(const Eq2& eq2, double most_prediction, bool is_s
   return fmt::format("{}, P ≤ {:.2g}", formula, most_prediction / eq2.gamma);
 }
 
-FigurePanel quality_panel(const TermPanels& terms, const Eq2& eq2, int height_px) {
+void add_quality(TermPanels& terms, const Eq2& eq2) {
   const auto density = terms.column([&](const Score& s) { return eq2.density(s); });
   const auto prediction = terms.column([&](const Score& s) { return eq2.prediction(s); });
   std::vector<double> quality = density;
@@ -161,49 +141,51 @@ FigurePanel quality_panel(const TermPanels& terms, const Eq2& eq2, int height_px
   constexpr double kLeastSeen = 0.02;
   const double most = *std::max_element(prediction.begin(), prediction.end());
   const bool is_seen = most > kLeastSeen * *std::max_element(quality.begin(), quality.end());
-  FigurePanel panel = terms.panel(heading_of_quality(eq2, most, is_seen), quality, height_px);
-  const std::vector<double> nothing(density.size(), 0.0);
-  panel.series.push_back(terms.area("D, density", kDensityArea, nothing, density));
-  if (is_seen) {
-    panel.series.push_back(terms.area("P, prediction", kPredictionArea, density, quality));
-  }
-  return panel;
+  FigurePanel& panel = terms.add(heading_of_quality(eq2, most, is_seen), quality);
+  const auto area = [&](std::string name, std::string_view colour, const auto& low,
+                        const auto& high) {
+    panel.series.push_back({.name = name,
+                            .label = name,
+                            .mark = Mark::area,
+                            .look = look_in(colour),
+                            .x = counts_of(terms.views),
+                            .y = terms.smooth(high),
+                            .low = terms.smooth(low),
+                            .high = terms.smooth(high)});
+  };
+  area("D, density", kDensityArea, std::vector<double>(density.size(), 0.0), density);
+  if (is_seen) area("P, prediction", kPredictionArea, density, quality);
 }
 
-/// One below the other: the utility, and the factors that it is the product of.
-std::vector<FigurePanel> panels_of_eq2(const TermPanels& terms, const Eq2& eq2) {
-  constexpr int kHeight_px = 205;
+/// The utility, and the factors that it is the product of.
+void add_eq2(TermPanels& terms, const Eq2& eq2) {
+  terms.height_px = 205;
+  terms.add_line("utility = L Q I exp(−λ d)", "utility", 6,
+                 terms.column([](const Score& s) { return s.value; }));
+  add_quality(terms, eq2);
+  terms.add_line("I = 1 + α E, E information gain", "I", 2,
+                 terms.column([&](const Score& s) { return eq2.information(s); }));
+  terms.add_line("exp(−λ d), d distance to the view (m)", "exp(−λ d)", 3,
+                 terms.column([](const Score& s) { return s.distance; }));
   const auto size = terms.column([&](const Score& s) { return eq2.size(s); });
   const bool is_defined =
       std::none_of(size.begin(), size.end(), [](double value) { return std::isnan(value); });
-  const std::string of_size =
-      fmt::format("L = log₁₀ N, N occupied voxels{}", is_defined ? " in view" : " (where defined)");
-  return {
-      terms.lines("utility = L Q I exp(−λ d)", "utility",
-                  terms.column([](const Score& s) { return s.value; }), 6, kHeight_px),
-      quality_panel(terms, eq2, kHeight_px),
-      terms.lines("I = 1 + α E, E information gain", "I",
-                  terms.column([&](const Score& s) { return eq2.information(s); }), 2, kHeight_px),
-      terms.lines("exp(−λ d), d distance to the view (m)", "exp(−λ d)",
-                  terms.column([](const Score& s) { return s.distance; }), 3, kHeight_px),
-      terms.lines(of_size, "L", size, 4, kHeight_px)};
+  terms.add_line(
+      fmt::format("L = log₁₀ N, N occupied voxels{}", is_defined ? " in view" : " (where defined)"),
+      "L", 4, size);
 }
 
 /// The utility, and its gain and distance factor where the latter ever says anything.
-std::vector<FigurePanel> panels_of_gain(const TermPanels& terms) {
-  constexpr int kHeight_px = 300;
-  std::vector<FigurePanel> panels = {terms.lines(
-      "utility", "utility", terms.column([](const Score& s) { return s.value; }), 6, kHeight_px)};
+void add_gain(TermPanels& terms) {
+  terms.height_px = 300;
+  terms.add_line("utility", "utility", 6, terms.column([](const Score& s) { return s.value; }));
   const auto distance = terms.column([](const Score& s) { return s.distance; });
   const bool is_discounted =
       std::any_of(distance.begin(), distance.end(), [](double factor) { return factor != 1.0; });
-  if (!is_discounted) return panels;
-  panels.push_back(terms.lines("the product of gain", "gain",
-                               terms.column([](const Score& s) { return s.information; }), 0,
-                               kHeight_px));
-  panels.push_back(terms.lines("and distance factor", "distance factor", distance, 3, kHeight_px));
-  panels.back().y = axis_around("", 0.0, 1.0);
-  return panels;
+  if (!is_discounted) return;
+  terms.add_line("the product of gain", "gain", 0,
+                 terms.column([](const Score& s) { return s.information; }));
+  terms.add_line("and distance factor", "distance factor", 3, distance);
 }
 
 }  // namespace
@@ -249,11 +231,15 @@ std::optional<Figure> density_entropy_figure(const RunRecord& record, bool has_d
 std::optional<Figure> terms_figure(const RunRecord& record) {
   std::vector<ViewRecord> views = scored_views(record);
   if (views.empty()) return std::nullopt;
-  const TermPanels terms(record, std::move(views));
+  TermPanels terms{.record = record, .views = std::move(views)};
   const UtilityConfig& utility = record.scenario.planner.utility;
+  if (utility_traits(utility.name).eq2) {
+    add_eq2(terms, Eq2(utility));
+  } else {
+    add_gain(terms);
+  }
   Figure figure{.name = "terms", .kind = "terms", .title = run_and_seed(record)};
-  figure.panels =
-      utility_traits(utility.name).eq2 ? panels_of_eq2(terms, Eq2(utility)) : panels_of_gain(terms);
+  figure.panels = std::move(terms.panels);
   if (terms.is_smooth()) {
     figure.notes.push_back(fmt::format("thin: each view; thick: mean of {} views", kWindow));
   }

@@ -79,6 +79,6 @@ struct CheckedClaim {
 /// Those that the scenarios' missions can answer, in the order of the paper's figures.
 std::vector<CheckedClaim> check_claims(const PaperMaterial& material);
 
-std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const PaperTable& table);
+std::vector<DrawnGroup> mean_densities(const PaperMaterial& material, const PaperTable& table);
 
 }  // namespace gnbv

@@ -149,7 +149,7 @@ void draw_paths_figure(FigureDesk& desk) {
 }
 
 void draw_densities_figure(FigureDesk& desk) {
-  const std::vector<MeanSeries> series =
+  const std::vector<DrawnGroup> series =
       mean_densities(desk.material(), *find_paper_table(desk.figure().scenario));
   if (series.empty()) throw BadInput("no mission came to its end");
   desk.add("density", "", mean_density_figure(series, human_name(desk.figure().scenario)));

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 namespace gnbv {
 namespace {
 
@@ -31,7 +29,7 @@ TEST(Axes, HoldWhatIsDrawnOnEvenSteps) {
       {0.0, 0.0},    {7.0, 7.0},   {-3e6, -3e6}, {1e-12, 1e-12}, {123456.7, 123456.9},
       {-20.3, 19.8}, {0.0, 0.029}, {0.2, 1.4},   {0.0, 7.2}};
   for (const auto& [low, high] : ranges) {
-    for (const Axis& axis : {axis_around("", low, high), close_axis("", low, high)}) {
+    for (const Axis& axis : {axis_around("", low, high), axis_around("", low, high, 3)}) {
       EXPECT_LE(axis.low, low);
       EXPECT_GE(axis.high, high);
       ASSERT_GE(axis.ticks.size(), 3U) << low << " " << high;
@@ -39,19 +37,6 @@ TEST(Axes, HoldWhatIsDrawnOnEvenSteps) {
       EXPECT_NEAR(axis.ticks.front().at, axis.low, 1e-9 * std::abs(axis.low));
       EXPECT_NEAR(axis.ticks.back().at, axis.high, 1e-9 * std::abs(axis.high));
     }
-  }
-}
-
-/// Panels are low: few ticks, and little room beyond the values.
-TEST(Axes, ACloseAxisLiesCloseAroundItsValues) {
-  const std::vector<std::array<double, 4>> cases = {
-      {-20.3, 19.8, -25.0, 25.0}, {-9.0, 9.5, -10.0, 10.0}, {0.0, 2.02, 0.0, 3.0},
-      {0.0, 0.029, 0.0, 0.03},    {0.0, 40.0, 0.0, 40.0},   {0.0, 7.2, 0.0, 7.5}};
-  for (const auto& [low, high, from, to] : cases) {
-    const Axis axis = close_axis("", low, high);
-    EXPECT_NEAR(axis.low, from, 1e-9) << low << " " << high;
-    EXPECT_NEAR(axis.high, to, 1e-9) << low << " " << high;
-    EXPECT_LE(axis.ticks.size(), 4U);
   }
 }
 

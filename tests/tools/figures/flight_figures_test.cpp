@@ -28,11 +28,9 @@ TEST(FlightFigures, AFlightIsThatOfThePath) {
 }
 
 TEST(Traces, AreTheirSamplesWhereTheseAreFew) {
-  const Traces traces({0.0, 1.0});
-  EXPECT_EQ(traces.series("", {5.0, 7.0}, 0).y, (Values{5, 7}));
-  EXPECT_TRUE(traces.series("", {5.0, 7.0}, 0).low.empty());
-  EXPECT_FALSE(traces.most("", {5.0, 7.0}, 0));
-  EXPECT_TRUE(traces.note().empty());
+  const Series few = trace("", {0.0, 1.0}, {5.0, 7.0}, 0);
+  EXPECT_EQ(few.y, (Values{5, 7}));
+  EXPECT_TRUE(few.low.empty());
 }
 
 /// A sawtooth of period 10 in steps of some 100 samples: of all, and of nine in ten.
@@ -43,20 +41,17 @@ TEST(Traces, ManySamplesBecomeBandsThatHoldThem) {
     sawtooth.push_back((i + 5) % 10);
     hundred.push_back((37 * i) % 100);
   }
-  const Series all = Traces(times_s).series("", sawtooth, 0);
+  const Series all = trace("", times_s, sawtooth, 0);
+  const Series most = trace("", times_s, hundred, 0, 0.05, 0.95);
   ASSERT_EQ(all.y.size(), 240U);
-  const Traces most_of_them(times_s, 0.9);
-  const Series most = most_of_them.series("", hundred, 0);
   for (std::size_t i = 0; i < 240; ++i) {
+    EXPECT_NEAR(all.x[i], 10.0 * static_cast<double>(i) + 5.0, 0.2);
     EXPECT_EQ(all.low[i], 0.0);
     EXPECT_EQ(all.high[i], 9.0);
     EXPECT_NEAR(all.y[i], 4.5, 0.05);
     EXPECT_NEAR(most.low[i], 5.0, 1.0);
     EXPECT_NEAR(most.high[i], 94.0, 1.0);
-    EXPECT_NEAR(most_of_them.most("", hundred, 0)->y[i], 99.0, 1.0);
   }
-  EXPECT_EQ(Traces(times_s).note(), "line: mean of each 10 s; band: least to most");
-  EXPECT_EQ(most_of_them.note(), "line: mean of each 10 s; band: 5 to 95 %");
 }
 
 /// A vehicle that looks at 180 degrees trembles on both sides of them: one line, beyond 180. It

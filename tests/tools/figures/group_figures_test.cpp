@@ -183,13 +183,11 @@ TEST(GroupFigures, ReachStepsUpWhereEachRunGetsThereAndStaysBelowForThoseThatDoN
 
 /// As of coverage: what a mission had at its end it keeps where others go on.
 TEST(GroupFigures, ADensityIsTheMeanOfAllSeedsAlsoPastTheEndOfSome) {
-  const MeanSeries three = mean_series("a", "proposed", {{1, 2}, {}, {2, 3, 9}, {3, 7, 8}});
-  ASSERT_EQ(three.by_view.size(), 3U);
-  EXPECT_NEAR(three.by_view[2].mean, (2.0 + 9.0 + 8.0) / 3.0, 1e-12);
-  EXPECT_EQ(three.by_view[2].n, 3U);
-  const Figure figure = mean_density_figure({&three, 1}, "Smoke");
+  const auto three = density_group("a", {}, {{1, 2}, {}, {2, 3, 9}, {3, 7, 8}});
+  const Figure figure = mean_density_figure({&*three, 1}, "Smoke");
   EXPECT_EQ(series_of(figure, "a").x, (Values{1, 2, 3}));  // the first view is 1
-  EXPECT_NEAR(series_of(figure, "a").y[2], three.by_view[2].mean, 1e-12);
+  EXPECT_NEAR(series_of(figure, "a").y[2], (2.0 + 9.0 + 8.0) / 3.0, 1e-12);
+  EXPECT_FALSE(density_group("a", {}, {{}}));
   EXPECT_THAT(labels_in(figure), ElementsAre("a (3 seeds), 95 % interval"));
   const std::vector<RunRecord> runs = {scored_record(), scored_record()};
   const std::vector<RunGroup> groups = {{.label = "a", .runs = {&runs[0]}},
