@@ -77,10 +77,9 @@ def faults(value, rule: dict, root: dict, at: str = "") -> list[str]:
     found, rule = [], dict(rule)
     if "$ref" in rule:
         return faults(value, root["definitions"][rule["$ref"].rsplit("/", 1)[1]], root, at)
-    types = rule.pop("type", [])
-    if types and not any(
-        isinstance(value, TYPES[t]) for t in ([types] if isinstance(types, str) else types)
-    ):
+    types = rule.pop("type", list(TYPES))
+    types = [types] if isinstance(types, str) else types
+    if not any(isinstance(value, TYPES[each]) for each in types):
         return [f"{at}: no {types}"]
     bad = {
         "const": lambda k: value != k,
