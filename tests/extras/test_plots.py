@@ -15,7 +15,7 @@ import matplotlib
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools/python/gnbv/plots"))
-import draw  # as the program runs it: without the package
+import _draw as draw  # as the program runs it: without the package
 
 KINDS = "density,coverage,terms,reach,flight,tracking,predictions"
 MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
@@ -73,7 +73,7 @@ TYPES |= {"number": (int, float), "null": type(None)}
 
 
 def faults(value, rule: dict, root: dict, at: str = "") -> list[str]:
-    """What a JSON Schema with our few keywords has against a value; an unknown keyword is a fault."""
+    """What a JSON Schema of our few keywords has against a value; others raise KeyError."""
     found, rule = [], dict(rule)
     if "$ref" in rule:
         return faults(value, root["definitions"][rule["$ref"].rsplit("/", 1)[1]], root, at)

@@ -77,7 +77,7 @@ def draw(figure: Figure, axes: Sequence[Axes] | None = None) -> list[Axes]:
         import matplotlib.pyplot as plt
     except ModuleNotFoundError as error:
         raise ImportError("gnbv.plots needs matplotlib: pip install 'gnbv[plot]'") from error
-    from gnbv.plots.draw import add_panels, draw_panel, legend_of, safe, style
+    from gnbv.plots._draw import add_panels, draw_panel, legend_of, safe, style
 
     panels = figure["panels"]
     with plt.rc_context(style() if axes is None else {}):
