@@ -263,8 +263,8 @@ def test_sizes_are_gated_and_drawn(run, flown, finer, tmp_path):
     for update in ('', '--update'):
         run(f'check {flown} --against gate.json {update}',
             'metrics.coverage_0.20: the run was not scored at that size', code=2)
-    run('plot run --plots coverage --voxel 0.2 --format svg -o plots')
-    run(f'plot {flown} --plots coverage --voxel 0.2 --format svg -o none',
+    run('plot run --plots coverage --voxel 0.2 --format json -o plots')
+    run(f'plot {flown} --plots coverage --voxel 0.2 --format json -o none',
         'not scored at 0.20 m: left out', code=2)
 
 

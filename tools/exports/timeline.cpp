@@ -1,14 +1,15 @@
 #include "tools/exports/timeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "sensors/camera_model.hpp"
-#include "sim/core/child_process.hpp"
 #include "sim/core/embed.hpp"
-#include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "tools/mission/python_script.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/run_record.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-GNBV_EMBED(write_timeline_py, GNBV_TIMELINE_FOLDER "/write_timeline.py");
 GNBV_EMBED(recorded_run_py, GNBV_TIMELINE_FOLDER "/recorded_run.py");
 GNBV_EMBED(to_rerun_py, GNBV_TIMELINE_FOLDER "/to_rerun.py");
 GNBV_EMBED(to_mcap_py, GNBV_TIMELINE_FOLDER "/to_mcap.py");
@@ -116,22 +116,17 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
       {"structure", parts.structure ? fs::absolute(structure).string() : ""},
       {"cameras", parts.frames ? cameras_of_frames(*parts.frames) : cameras_of_views(record)},
       {"cloud", growth_of(record, parts.cloud)}};
-  const Json modules = {
-      {"recorded_run", recorded_run_py()}, {"to_rerun", to_rerun_py()}, {"to_mcap", to_mcap_py()}};
-  ChildProcess child({python_program(), "-c", std::string(write_timeline_py())},
-                     {.in = ChildStream::pipe, .out = ChildStream::pipe});
-  const auto line = [](const Json& json) {  // ASCII, whatever Python takes for its locale
-    return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
-  };
-  child.write(line(modules) + line(scene));
-  const Json answer = Json::parse(child.read_line(), nullptr, false);
-  if (!answer.is_object()) {
-    throw BadInput(fmt::format("--format {}: {} does not run ({}); GNBV_PYTHON names another",
-                               format, python_program(), child.end().text()));
-  }
-  if (answer.contains("error")) throw BadInput(answer["error"].get<std::string>());
+  const bool is_rerun = format == "rerun";
+  const Json written = ask_python(
+      {.what = fmt::format("--format {}", format),
+       .modules = {{"recorded_run", recorded_run_py()},
+                   {fmt::format("to_{}", format), is_rerun ? to_rerun_py() : to_mcap_py()}},
+       .entry = "recorded_run",
+       .pip = is_rerun ? "numpy rerun-sdk"
+                       : "numpy mcap mcap-protobuf-support foxglove-schemas-protobuf pillow"},
+      scene);
   fs::remove(structure);
-  return words_of(answer.at("written"));
+  return words_of(written);
 }
 
 }  // namespace gnbv

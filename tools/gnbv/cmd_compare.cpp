@@ -3,11 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "sim/core/file.hpp"
+#include "tools/figures/figure_files.hpp"
+#include "tools/figures/forest_figure.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
-#include "tools/plots/coverage_plot.hpp"
-#include "tools/plots/forest_plot.hpp"
-#include "tools/run/run_groups.hpp"
 #include "tools/sweep/compare_missions.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -26,16 +27,9 @@ struct CompareOptions {
 void draw_comparison(const ComparedMissions& missions, const fs::path& folder) {
   const Comparison& comparison = missions.comparison;
   const BenchRuns& collected = missions.flown;
-  fs::create_directories(folder);
-  const auto draw = [&](const Plot& plot) {
-    std::string name = plot.name;  // of a scenario that a sweep may have called a/b
-    std::replace(name.begin(), name.end(), '/', '-');
-    const fs::path path = folder / (name + ".svg");
-    draw_plot(plot_script(plot, PlotFormat::svg, {}), path);
-    say("{}", path.string());
-  };
+  std::vector<Figure> figures;
   for (std::size_t scenario = 0; scenario < comparison.scenarios.size(); ++scenario) {
-    if (const auto forest = forest_plot(comparison, scenario)) draw(*forest);
+    if (auto forest = forest_figure(comparison, scenario)) figures.push_back(std::move(*forest));
     std::vector<RunRecord> records;
     for (std::size_t i = 0; i < collected.runs.size(); ++i) {
       if (collected.runs[i].scenario != comparison.scenarios[scenario]) continue;
@@ -45,9 +39,16 @@ void draw_comparison(const ComparedMissions& missions, const fs::path& folder) {
     const std::vector<RunGroup> groups = group_runs(records, notes);
     for (const std::string& note : notes) say(note);
     if (groups.empty()) continue;
-    Plot coverage = coverage_plot(groups, Effort::metres, 0);
-    coverage.name += "-" + comparison.scenarios[scenario];
-    draw(coverage);
+    figures.push_back(coverage_figure(groups, Effort::metres, kCoverageSizes_m[0]));
+    figures.back().name += "-" + comparison.scenarios[scenario];
+  }
+  for (Figure& figure : figures) {  // of a scenario that a sweep may have called a/b
+    std::replace(figure.name.begin(), figure.name.end(), '/', '-');
+  }
+  make_folder(folder);
+  const std::vector<std::string> formats = {"svg", "json"};
+  for (const fs::path& written : write_figures(figures, formats, {}, folder)) {
+    say("{}", written.string());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "sim/core/error.hpp"
+#include "tools/figures/names.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/render_options.hpp"
 #include "tools/mission/execute.hpp"
@@ -18,7 +19,6 @@
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_names.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"

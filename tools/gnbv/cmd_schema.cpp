@@ -1,15 +1,25 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <memory>
 
 #include "scenarios/load.hpp"
+#include "tools/figures/figure.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 
 namespace gnbv {
 
 void add_schema_command(CLI::App& app) {
-  app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors")
-      ->callback([] { fmt::print("{}", scenario_json_schema()); });
+  auto of = std::make_shared<std::string>("scenario");
+  CLI::App* const command =
+      app.add_subcommand("schema", "print the JSON Schema of scenario files, for editors");
+  command->add_option("OF", *of, "scenario, or figures: what `gnbv plot --format json` writes")
+      ->check(is_one_of({"scenario", "figures"}))
+      ->capture_default_str();
+  command->callback([of] {
+    fmt::print("{}", *of == "figures" ? std::string(figures_schema()) : scenario_json_schema());
+  });
 }
 
 }  // namespace gnbv

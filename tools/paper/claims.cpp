@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "bench/compare/text_table.hpp"
+#include "tools/figures/curves.hpp"
 #include "tools/paper/comparisons.hpp"
-#include "tools/plots/curves.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
@@ -23,15 +23,15 @@ std::string span_text(double low, double high, int decimals) {
 /// Fig. 9: Proposed is densest in each iteration.
 void check_densest(const PaperMaterial& material, std::vector<CheckedClaim>& claims) {
   const PaperTable* const table = find_paper_table("aircraft");
-  const std::vector<MeanSeries> series = mean_densities(material, *table);
+  const std::vector<DrawnGroup> series = mean_densities(material, *table);
   if (series.size() < table->rows.size()) return;
-  const MeanSeries& proposed = series.back();  // the last row of the table
-  std::size_t shared = proposed.by_view.size();
-  for (const MeanSeries& one : series) shared = std::min(shared, one.by_view.size());
+  const DrawnGroup& proposed = series.back();  // the last row of the table
+  std::size_t shared = proposed.mean.y.size();
+  for (const DrawnGroup& one : series) shared = std::min(shared, one.mean.y.size());
   std::size_t ahead = 0;
   for (std::size_t view = 0; view < shared; ++view) {
-    ahead += std::all_of(series.begin(), series.end() - 1, [&](const MeanSeries& other) {
-      return proposed.by_view[view].mean > other.by_view[view].mean;
+    ahead += std::all_of(series.begin(), series.end() - 1, [&](const DrawnGroup& other) {
+      return proposed.mean.y[view].mean > other.mean.y[view].mean;
     });
   }
   if (shared == 0) return;

@@ -202,8 +202,8 @@ std::vector<ComparedPair> compare_pairs(const PaperMaterial& material, const Pap
   return pairs;
 }
 
-std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const PaperTable& table) {
-  std::vector<MeanSeries> all;
+std::vector<DrawnGroup> mean_densities(const PaperMaterial& material, const PaperTable& table) {
+  std::vector<DrawnGroup> all;
   for (const PaperRow& row : table.rows) {
     const Missions missions = missions_of(material, table.scenario, row.utility);
     if (missions.empty()) continue;
@@ -214,7 +214,10 @@ std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const Pape
         seeds.back().push_back(*value);
       }
     }
-    all.push_back(mean_series(std::string(row.label), std::string(row.utility), std::move(seeds)));
+    const std::string method(row.utility);  // of the paper's, which have looks of their own
+    auto densities =
+        density_group(std::string(row.label), method_looks({&method, 1}).front(), std::move(seeds));
+    if (densities) all.push_back(std::move(*densities));
   }
   return all;
 }

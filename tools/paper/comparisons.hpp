@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bench/compare/paper_figures.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/paper/missions.hpp"
 #include "tools/paper/verdicts.hpp"
-#include "tools/plots/density_plot.hpp"
 
 namespace gnbv {
 
@@ -79,6 +79,6 @@ struct CheckedClaim {
 /// Those that the scenarios' missions can answer, in the order of the paper's figures.
 std::vector<CheckedClaim> check_claims(const PaperMaterial& material);
 
-std::vector<MeanSeries> mean_densities(const PaperMaterial& material, const PaperTable& table);
+std::vector<DrawnGroup> mean_densities(const PaperMaterial& material, const PaperTable& table);
 
 }  // namespace gnbv

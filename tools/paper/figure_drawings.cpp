@@ -7,10 +7,9 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
+#include "tools/figures/run_figures.hpp"
 #include "tools/paper/comparisons.hpp"
 #include "tools/paper/figures.hpp"
-#include "tools/plots/density_plot.hpp"
-#include "tools/plots/run_plots.hpp"
 #include "tools/render/camera_choice.hpp"
 #include "tools/render/flight_items.hpp"
 #include "tools/render/grid_samples.hpp"
@@ -150,16 +149,16 @@ void draw_paths_figure(FigureDesk& desk) {
 }
 
 void draw_densities_figure(FigureDesk& desk) {
-  const std::vector<MeanSeries> series =
+  const std::vector<DrawnGroup> series =
       mean_densities(desk.material(), *find_paper_table(desk.figure().scenario));
   if (series.empty()) throw BadInput("no mission came to its end");
-  desk.add("density", "", mean_density_plot(series, human_name(desk.figure().scenario)));
+  desk.add("density", "", mean_density_figure(series, human_name(desk.figure().scenario)));
 }
 
 void draw_entropy_figure(FigureDesk& desk) {
-  const std::optional<Plot> plot = density_entropy_plot(desk.mission("proposed").record);
-  if (!plot) throw BadInput("the mission took no view");
-  desk.add("density-entropy", "", *plot);
+  const std::optional<Figure> figure = density_entropy_figure(desk.mission("proposed").record);
+  if (!figure) throw BadInput("the mission took no view");
+  desk.add("density-entropy", "", *figure);
 }
 
 void draw_path_in_map_figure(FigureDesk& desk) {

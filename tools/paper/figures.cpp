@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/figures/figure_files.hpp"
 
 namespace gnbv {
 namespace {
@@ -174,9 +175,10 @@ void FigureDesk::add(const std::string& what, const std::string& label, const Im
   write_png(image, folder_ / figure_.files.back().path);
 }
 
-void FigureDesk::add(const std::string& what, const std::string& label, const Plot& plot) {
+void FigureDesk::add(const std::string& what, const std::string& label, const Figure& figure) {
   const std::string file = file_of(what, ".svg");
-  draw_plot(plot_script(plot, PlotFormat::svg, {}), folder_ / file);
+  const FigureTarget target{&figure, folder_ / file};
+  draw_to_files({&target, 1});
   figure_.files.push_back({file, label});
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tools/figures/figure.hpp"
 #include "tools/paper/missions.hpp"
-#include "tools/plots/gnuplot.hpp"
 #include "tools/render/pictures.hpp"
 
 namespace gnbv {
@@ -72,7 +72,7 @@ class FigureDesk {
   /// "fig08-WHAT.png", by rename.
   void add(const std::string& what, const std::string& label, const Image& image);
   /// "fig08-WHAT.svg".
-  void add(const std::string& what, const std::string& label, const Plot& plot);
+  void add(const std::string& what, const std::string& label, const Figure& figure);
   void miss(const std::string& sentence) { figure_.missing.push_back(sentence); }
 
  private:

@@ -10,6 +10,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
+#include "tools/figures/groups.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
@@ -17,8 +18,6 @@
 #include "tools/report/run_json.hpp"
 #include "tools/report/structures.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/method_slots.hpp"
-#include "tools/run/run_groups.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
@@ -169,6 +168,13 @@ std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure*
   return scored;
 }
 
+/// By voxel size; null where it is not known, since what somebody gave is of the finest alone.
+Json ceiling_json(const std::optional<Ceiling>& ceiling) {
+  if (!ceiling) return nullptr;
+  if (!ceiling->is_given) return ceiling->leaf_outside;
+  return {ceiling->leaf_outside[0], nullptr, nullptr};
+}
+
 /// 256 sRGB colours, three bytes each: those of the pictures of the same run.
 Json ramp_json(const std::vector<Rgb>& colours) {
   Json bytes = Json::array();
@@ -206,7 +212,9 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   Report report;
   const std::string title = options.title.empty() ? title_of(records) : options.title;
   const std::vector<std::string> labels = run_labels(records);
-  const std::vector<std::size_t> slots = method_slots(methods_of(records));
+  std::vector<std::string> methods;
+  for (const RunRecord& record : records) methods.push_back(method_of(record));
+  const std::vector<std::size_t> slots = method_slots(methods);
   const Structures structures = pack_structures(records, options.threads);
   const RunBudget budget = budget_of(records, structures.bytes.bytes().size());
   Json runs = Json::array();
@@ -222,7 +230,7 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
     Json run = run_json(records[i], labels[i], packed, structure.number);
     run["slot"] = slots[i];
     ceilings.push_back(ceiling_of(records[i], structure.known.get(), options.threads));
-    run["ceiling"] = ceilings.back() ? Json(ceilings.back()->leaf_outside) : Json(nullptr);
+    run["ceiling"] = ceiling_json(ceilings.back());
     runs.push_back(std::move(run));
     data += bytes_element(fmt::format("run-{}", i), packed.bytes);
     report.missing.insert(report.missing.end(), packed.missing.begin(), packed.missing.end());

@@ -160,11 +160,15 @@ std::string scenario_title(const Scenario& scenario) {
   return fmt::format("{} ({})", name, mesh.filename().string());
 }
 
+std::string utility_title(const UtilityConfig& utility) {
+  const std::string label = utility_label(utility);
+  return user_function(utility) != nullptr ? label : human_name(label);
+}
+
 std::string run_title(const RunRecord& record) {
   const PlannerConfig& planner = record.scenario.planner;
-  const std::string label = utility_label(planner.utility);
-  const std::string title = fmt::format("{}, {}", scenario_title(record.scenario),
-                                        user_function(planner.utility) ? label : human_name(label));
+  const std::string title =
+      fmt::format("{}, {}", scenario_title(record.scenario), utility_title(planner.utility));
   return planner.preset == PlannerConfig{}.preset ? title : title + ", " + planner.preset;
 }
 

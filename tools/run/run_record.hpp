@@ -51,6 +51,9 @@ RunCloud read_run_cloud(const RunRecord& record);
 /// structure's place.
 std::string scenario_title(const Scenario& scenario);
 
+/// Of a utility: "Proposed", "AEP"; a function of the user's by its label.
+std::string utility_title(const UtilityConfig& utility);
+
 /// Who flew where: "aircraft, proposed"; and by which reading of the paper, if not the usual one.
 std::string run_title(const RunRecord& record);
 /// The main figures in one line, as far as they are there.

@@ -320,6 +320,17 @@ TEST(Report, ATableNamesCoverageInFullAndExplainsNoColumnThatIsNotThere) {
   EXPECT_EQ(table["notes"].dump().find("of ceiling"), std::string::npos);
 }
 
+/// A ceiling that a run was scored with is of 0.05 m: none of the other sizes, least of all 0 %.
+TEST(Report, ACeilingIsSaidOfTheSizeWhereItIsKnown) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  RunRecord record = covered_record(1, {0.2});
+  record.folder = temp.path();
+  record.figures->ceiling = 0.9;
+  const nlohmann::json ceiling = data_of(report_of({record}))["runs"][0]["ceiling"];
+  EXPECT_EQ(ceiling, nlohmann::json({0.9, nullptr, nullptr}));
+}
+
 /// A released run is no second seed of a run by the paper.
 TEST(Report, RunsOfTwoConfigurationsAreTwoRows) {
   TempFolder temp;

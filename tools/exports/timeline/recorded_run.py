@@ -4,6 +4,7 @@ the beginning of the mission, world ENU."""
 from __future__ import annotations
 
 import csv
+import importlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -151,3 +152,8 @@ def _mesh(file: Path) -> Mesh:
     faces = np.frombuffer(rest, face, elements[1][1])
     corners = np.stack([vertices[axis] for axis in "xyz"], axis=1)
     return Mesh(corners, faces["vertex"], faces["rgb"])
+
+
+def main(scene: dict[str, Any]) -> dict[str, int]:
+    """Writes the scene's run in its format (timeline.cpp); how many of what was written."""
+    return importlib.import_module(f"to_{scene['format']}").write(RecordedRun(scene), scene["out"])

@@ -1,4 +1,4 @@
-"""Coverage over metres of some runs, by matplotlib.
+"""Coverage over metres of some runs beside each other, by matplotlib.
 
 usage: plot_coverage.py OUT.png RUN...
 """
@@ -7,21 +7,18 @@ import sys
 
 import matplotlib
 
-import gnbv
+import gnbv.plots
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 if __name__ == "__main__":
-    figure, axes = plt.subplots(figsize=(6, 4))
-    for folder in sys.argv[2:]:
-        run = gnbv.load(folder)
-        axes.plot(
-            run.coverage["metres"],
-            100 * run.coverage["coverage_0.05"],
-            label=f"{run.summary['utility']}, seed {run.summary['seed']}",
-        )
-    axes.set(xlabel="flown straight (m)", ylabel="coverage at 0.05 m (%)")
-    axes.legend()
-    figure.savefig(sys.argv[1], dpi=150, bbox_inches="tight")
-    print(sys.argv[1])
+    out, *runs = sys.argv[1:]
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3), layout="constrained")
+    gnbv.plots.coverage(runs, effort="metres", ax=left)
+    gnbv.plots.coverage(runs, effort="views", ax=right)
+    left.legend(loc="lower right", fontsize=7)
+    right.get_legend().remove()
+    right.set_ylabel("")
+    figure.savefig(out, dpi=150)
+    print(out)

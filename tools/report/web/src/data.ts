@@ -148,7 +148,7 @@ export interface RunData {
   vehicle: { rotors: Vec3[]; radius_m: number };
   views: Views;
   figures: Figures | null;
-  ceiling: Vec3 | null; // coverage that could be reached, by voxel size
+  ceiling: [number, number | null, number | null] | null; // coverage in reach, by voxel size
   paper: PaperEnd | null;
   cloud: { points: PackedPoints; after: Slice; all_points: number; cell_m: number; colour?: Slice;
     error?: Slice } | null; // of errors uint8, in millimetres; 255: not of the structure

@@ -9,6 +9,7 @@ export interface Line {
   colour: string;
   width: number;
   dash?: number[];
+  steps?: boolean; // a value stays until the next
   run?: number; // whose it is, with several
 }
 
@@ -71,7 +72,7 @@ const ringOf = (flight: Flight, effort: Effort, y: number | undefined): Ring[] =
 
 /** What could be reached at a voxel size, each once. */
 function ceilings(flights: Flight[], size: number, colour: string) {
-  const shares = new Set(flights.flatMap(({ data }) => (data.ceiling ? [data.ceiling[size]] : [])));
+  const shares = new Set(flights.flatMap(({ data }) => data.ceiling?.[size] ?? []));
   return [...shares].map((share) => ({ share: 100 * share,
     line: { name: `ceiling, ${kSizes[size]}`, colour, width: 1.2, dash: [5, 4] } }));
 }
@@ -86,7 +87,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
     const x = efforts(flight, effort, 0);
     const ceiling = ceilings(scored, 0, lineColour(0));
     return {
-      lines: [...kSizes.map((name, k) => ({ name, colour: lineColour(k), width: 2 })),
+      lines: [...kSizes.map((name, k) => ({ name, colour: lineColour(k), width: 2, steps: true })),
         ...ceiling.map(({ line }) => line)],
       data: joined([...kSizes.map((_, k): Column => [x, percent(flight, k)]),
         ...ceiling.map(({ share }): Column => [x, x.map(() => share)])]),
@@ -100,7 +101,7 @@ export function coverage(flights: Flight[], effort: Effort, { size }: PlotChoice
   const longest = scored.reduce((a, b) => (b.last(effort) > a.last(effort) ? b : a), scored[0]);
   return {
     lines: [...scored.map((flight) =>
-      ({ name: flight.data.label, colour: runColour(flight.index), width: 2,
+      ({ name: flight.data.label, colour: runColour(flight.index), width: 2, steps: true,
         run: flight.index })), ...ceiling.map(({ line }) => line)],
     data: joined([...scored.map((flight): Column =>
       [efforts(flight, effort, 0), percent(flight, size)]),

@@ -72,7 +72,7 @@ export function plotSvg(plot: uPlot, { lines, rings, strips, xName }: SvgContent
         + label(left - 6, Number(py(y)) + 0.36 * font, "end", name)),
     ...lines.map((line, i) => (line.width === 0 ? "" : `<path fill="none" stroke="${line.colour}" `
       + `stroke-width="1.6"${line.dash ? ` stroke-dasharray="${line.dash.join(" ")}"` : ""} d="${
-        pathOf(plot.data[0], plot.data[i + 1], px, py)}"/>`)),
+        pathOf(plot.data[0], plot.data[i + 1], px, py, line.steps)}"/>`)),
     ...rings.map((ring) => `<circle cx="${px(ring.x)}" cy="${py(ring.y)}" r="4.5" fill="none" `
       + `stroke="${ring.colour}" stroke-width="1.6"/>`),
     ...keys.map((named, i) => rect(key(i)[0], key(i)[1] - 9, 10, 10, named.colour)
@@ -85,12 +85,13 @@ export function plotSvg(plot: uPlot, { lines, rings, strips, xName }: SvgContent
 }
 
 function pathOf(xs: ArrayLike<number>, ys: ArrayLike<number | null | undefined>,
-    px: (x: number) => string, py: (y: number) => string): string {
+    px: (x: number) => string, py: (y: number) => string, isSteps = false): string {
   let path = "";
   for (let i = 0; i < xs.length; ++i) {
     const y = ys[i];
     if (y === null || y === undefined) continue;
-    path += `${path ? "L" : "M"}${px(xs[i])} ${py(y)}`;
+    const way = !path ? `M${px(xs[i])} ` : isSteps ? `H${px(xs[i])}V` : `L${px(xs[i])} `;
+    path += way + py(y);
   }
   return path;
 }

@@ -163,6 +163,7 @@ export class Plots {
       series: [{ label: unit, value: (_, v) => text2(v, unit) },
         ...content.lines.map((line) => ({ label: line.name, stroke: line.colour,
           width: line.width, dash: line.dash, spanGaps: true, points: { show: false },
+          ...(line.steps && { paths: uPlot.paths.stepped!({ align: 1 }) }),
           value: (plot: uPlot, _: number, series: number, i: number | null) =>
             valueText(kind, lastValue(plot.data[series], i)) }))],
       bands: (content.bands ?? []).map(({ high, low, fill }) => ({ series: [high, low], fill })),

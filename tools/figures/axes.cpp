@@ -1,0 +1,94 @@
+#include "tools/figures/axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/core/text.hpp"
+
+namespace gnbv {
+namespace {
+
+double size_of(double low, double high) { return std::max({std::abs(low), std::abs(high), 1.0}); }
+
+int decimals_of(double step) {
+  int decimals = 0;
+  for (; decimals < 7 && std::abs(step - std::round(step)) > 1e-6 * step; step *= 10.0) ++decimals;
+  return decimals;
+}
+
+std::string tick_text(double value, double step, double largest) {
+  constexpr int kMostDecimals = 6;
+  const int decimals = decimals_of(step);
+  std::string text;
+  if (decimals > kMostDecimals) {
+    text = fmt::format("{:g}", value);
+  } else if (largest >= 1e6 && std::fmod(step, 1000.0) == 0.0) {
+    text = fmt::format("{:g}M", value / 1e6);  // longer numbers would leave no room
+  } else {
+    text = grouped(value, decimals);
+  }
+  if (text.starts_with('-')) text.replace(0, 1, "\u2212");
+  return text;
+}
+
+}  // namespace
+
+double even_step(double span, int most) {
+  const double power = std::pow(10.0, std::floor(std::log10(span / (most - 1))));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (span / (factor * power) <= most) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+std::vector<AxisTick> ticks_of(double low, double high, double step) {
+  std::vector<AxisTick> ticks;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
+    const double at = i * step + 0.0;  // no -0
+    ticks.push_back({at, tick_text(at, step, largest)});
+  }
+  return ticks;
+}
+
+Axis axis_from(std::string_view label, double low, double high, int most_steps) {
+  return {.label = std::string(label),
+          .low = low,
+          .high = high,
+          .ticks = ticks_of(low, high, even_step(high - low, most_steps))};
+}
+
+Axis axis_around(std::string_view label, double low, double high, int most_steps) {
+  // values that are all the same lie in the middle of an axis around them
+  if (high - low < 1e-9 * size_of(low, high)) {
+    const double room = 0.05 * size_of(low, high);
+    low -= room;
+    high += room;
+  }
+  const double step = even_step(high - low, most_steps);
+  Axis axis{.label = std::string(label),
+            .low = step * std::floor(low / step + 1e-9),
+            .high = step * std::ceil(high / step - 1e-9)};
+  axis.ticks = ticks_of(axis.low, axis.high, step);
+  return axis;
+}
+
+Axis log_axis(std::string_view label, double low, double high) {
+  const int from = static_cast<int>(std::floor(std::log10(low)));
+  const int to = static_cast<int>(std::ceil(std::log10(high)));
+  Axis axis{.label = std::string(label),
+            .low = std::pow(10.0, from),
+            .high = std::pow(10.0, to),
+            .ticks = {},
+            .is_log = true};
+  for (int power = from; power <= to; ++power) {
+    const double at = std::pow(10.0, power);
+    axis.ticks.push_back({at, at < 1.0 ? fmt::format("{:.{}f}", at, -power) : grouped(at, 0)});
+  }
+  return axis;
+}
+
+}  // namespace gnbv
