@@ -7,9 +7,9 @@
 
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
-#include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/looks.hpp"
 
 namespace gnbv {
 
@@ -78,7 +78,7 @@ std::vector<LegendItem> legend_of_rejected(const CandidateTally& all) {
     const std::string seen =
         unseen == 0 ? "" : fmt::format("{} of ", grouped(all.rejected[reason] - unseen));
     legend.push_back({fmt::format("{}: {}{}", look.words, seen, grouped(all.rejected[reason])),
-                      {look.colour},
+                      {look.rgb()},
                       LegendItem::Mark::dot});
     if (legend.size() == 1)
       legend.front().label_before = all.unseen == 0 ? "rejected:" : "rejected, in sight of all:";

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "sim/core/image.hpp"
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 

@@ -11,9 +11,9 @@
 #include "tools/render/chosen_view_item.hpp"
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/panel_layout.hpp"
-#include "tools/render/rejection_look.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/looks.hpp"
 
 namespace gnbv {
 namespace {
@@ -56,7 +56,7 @@ void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
                     RenderScene& scene) {
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.rejected) {
-      const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
+      const Rgb colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].rgb();
       add_pin(candidate.view, kRejectedPin * unit_m, 1.4 * unit_m, colour, scene);
       scene.balls.push_back(
           {scene.tubes.back().points_m.back(), static_cast<float>(kRejectedBall * unit_m), colour});

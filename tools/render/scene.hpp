@@ -8,7 +8,7 @@
 
 #include "sim/core/image.hpp"
 #include "sim/mesh/triangle_mesh.hpp"
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 #include "tools/render/view.hpp"
 
 namespace gnbv {

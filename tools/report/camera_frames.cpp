@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/run/cloud_colours.hpp"
 

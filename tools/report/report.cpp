@@ -11,7 +11,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"

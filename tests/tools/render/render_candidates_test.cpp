@@ -14,7 +14,7 @@
 #include "tools/render/frontier_items.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/place_marks.hpp"
-#include "tools/render/rejection_look.hpp"
+#include "tools/scene/looks.hpp"
 #include "tools/render/voxel_items.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 

@@ -1,4 +1,4 @@
-// Colours of the pictures: linear light inside, sRGB at the border.
+// Colours of pictures and pages: linear light inside, sRGB at the border.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +47,11 @@ inline constexpr std::array<std::uint32_t, 6> kPathTable = {0x2b0f8a, 0x6a0fb0, 
 inline constexpr std::array<std::uint32_t, 8> kAmountTable = {
     0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30};
 
+/// Errors: from pale, which is right, over yellow and orange to a dark red; it stands out from
+/// shadows.
+inline constexpr std::array<std::uint32_t, 6> kErrorTable = {0xdfe5ec, 0xf2e0a0, 0xf5b04e,
+                                                             0xe2702c, 0xb5301f, 0x6d0a1c};
+
 inline std::vector<Rgb> linear_colours(ColourTable table) {
   std::vector<Rgb> colours;
   for (const std::uint32_t rrggbb : table) colours.push_back(srgb(rrggbb));
@@ -64,6 +69,11 @@ inline const std::vector<Rgb>& amount_colours() {
   return colours;
 }
 inline Rgb amount_ramp(double t) { return ramp(amount_colours(), t); }
+
+inline const std::vector<Rgb>& error_colours() {
+  static const std::vector<Rgb> colours = linear_colours(kErrorTable);
+  return colours;
+}
 
 /// Of candidates' utilities: amounts without their ends, which colours of rejections come close to.
 inline const std::vector<Rgb>& score_colours() {
