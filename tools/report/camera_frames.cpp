@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/scene/colour.hpp"
 #include "tools/report/jpeg.hpp"
 #include "tools/run/cloud_colours.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

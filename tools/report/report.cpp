@@ -11,7 +11,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/scene/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
@@ -20,6 +19,7 @@
 #include "tools/run/method_slots.hpp"
 #include "tools/run/run_groups.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,14 +1,22 @@
-#include "tools/render/paint.hpp"
+#include "tools/scene/structure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/core/parallel.hpp"
-#include "sim/mesh/triangle_mesh.hpp"
 
 namespace gnbv {
 namespace {
+
+void add_in_one_colour(const TriangleMesh& mesh, const Look& look, float opacity,
+                       RenderScene& scene) {
+  if (mesh.faces.empty()) return;
+  SurfaceItem& surface = scene.surfaces.emplace_back();
+  surface.mesh = mesh;
+  surface.vertex_colours.assign(mesh.vertices_m.size(), look.rgb());
+  surface.opacity = opacity;
+}
 
 /// Joints of panels are narrower than a pixel of an aircraft: one ray a pixel would tear them into
 /// dots.
@@ -34,12 +42,54 @@ std::vector<Vec3f> directions_world(const RenderView& view, const PaintItem& pai
   return directions;
 }
 
-std::uint8_t byte_of(float linear) {
-  return static_cast<std::uint8_t>(
-      std::lround(255.0F * linear_to_srgb(std::clamp(linear, 0.0F, 1.0F))));
+}  // namespace
+
+void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m) {
+  for (const Vec3f& v : run.world().structure.vertices_m) {
+    points_world_m.push_back(v.cast<double>());
+  }
 }
 
-}  // namespace
+void add_ground(RunSource& run, RenderScene& scene) {
+  if (has_flat_ground(run.record().scenario)) scene.ground = GroundItem{};
+  if (run.world().terrain.faces.empty()) return;
+  add_in_one_colour(run.world().terrain, looks::kTerrain, 1.0F, scene);
+  scene.surfaces.back().casts_shadow = false;
+}
+
+void add_surroundings(RunSource& run, RenderScene& scene) {
+  add_in_one_colour(run.world().obstacles, looks::kObstacle, 1.0F, scene);
+  TriangleMesh boxes;
+  for (const NoFlyConfig& keep_out : run.record().scenario.no_fly) {
+    append(boxes, box_mesh(keep_out.box_m));
+  }
+  add_in_one_colour(boxes, looks::kNoFly, 0.3F, scene);
+}
+
+std::vector<LegendItem> legend_of_surroundings(RunSource& run) {
+  const Scenario& scenario = run.record().scenario;
+  std::vector<LegendItem> legend;
+  if (!scenario.obstacles.empty()) legend.push_back(entry(looks::kObstacle));
+  if (!scenario.no_fly.empty()) legend.push_back(entry(looks::kNoFly));
+  return legend;
+}
+
+void add_ghost(RunSource& run, float opacity, RenderScene& scene) {
+  add_ground(run, scene);
+  add_in_one_colour(run.world().structure, looks::kStructure, opacity, scene);
+  add_in_one_colour(run.world().obstacles, looks::kObstacle, opacity, scene);
+}
+
+void add_structure(RunSource& run, const RenderView& view, RenderScene& scene) {
+  add_ground(run, scene);
+  const std::size_t faces = run.world().structure.faces.size();
+  if (faces == 0) return;
+  SurfaceItem& surface = scene.surfaces.emplace_back();
+  surface.mesh = run.world().structure;
+  surface.is_painted = true;
+  scene.paint = paint_of_structure(run.scene(), faces, view, run.threads());
+  add_surroundings(run, scene);
+}
 
 PaintItem paint_of_structure(const RayScene& scene, std::size_t structure_faces,
                              const RenderView& view, int threads) {
@@ -66,7 +116,8 @@ PaintItem paint_of_structure(const RayScene& scene, std::size_t structure_faces,
       }
       if (count == 0.0F) continue;
       std::uint8_t* const pixel = paint.rgba.data() + 4 * (width * row + column);
-      for (Eigen::Index k = 0; k < 3; ++k) pixel[k] = byte_of(sum[k] / count);
+      for (Eigen::Index k = 0; k < 3; ++k)
+        pixel[k] = srgb_byte(std::clamp(sum[k] / count, 0.0F, 1.0F));
       pixel[3] = 255;
     }
   });

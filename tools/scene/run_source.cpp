@@ -1,4 +1,4 @@
-#include "tools/render/run_source.hpp"
+#include "tools/scene/run_source.hpp"
 
 #include <utility>
 
@@ -109,26 +109,31 @@ RecordedMission RunSource::mission() {
           .threads = threads_};
 }
 
-void RunSource::expect_profile() { expects_profile_ = true; }
-void RunSource::expect_belief_after(std::size_t iteration) { expected_belief_ = iteration; }
-void RunSource::expect_decision(std::size_t iteration) { expected_decision_ = iteration; }
+void RunSource::expect(const ReplayRequest& request) {
+  expected_ = request;
+  expected_.waypoints = {1, 3};
+}
 
 ReplayRequest RunSource::lacking() const {
-  ReplayRequest request{.waypoints = {1, 3}, .has_profile = expects_profile_ && !profile_};
-  if (!belief_ || expected_belief_ != belief_->first) request.belief = expected_belief_;
-  if (!decision_ || expected_decision_ != decision_->first) request.decision = expected_decision_;
+  ReplayRequest request = expected_;
+  request.has_profile = request.has_profile && !known_.has_profile;
+  if (request.belief == known_.belief) request.belief.reset();
+  if (request.decision == known_.decision) request.decision.reset();
   return request;
 }
 
 void RunSource::keep(const ReplayRequest& request, Replayed again) {
-  if (request.has_profile) profile_ = std::move(again.profile);
+  if (request.has_profile) again_.profile = std::move(again.profile);
+  known_.has_profile = known_.has_profile || request.has_profile;
   if (again.belief) {
-    belief_.reset();
-    belief_.emplace(*request.belief, std::move(*again.belief));
+    again_.belief.reset();
+    again_.belief.emplace(std::move(*again.belief));
+    known_.belief = request.belief;
   }
   if (again.decision) {
-    decision_.reset();
-    decision_.emplace(*request.decision, std::move(*again.decision));
+    again_.decision.reset();
+    again_.decision.emplace(std::move(*again.decision));
+    known_.decision = request.decision;
   }
 }
 
@@ -163,36 +168,32 @@ void RunSource::fly_again(bool is_for_decision) {
   keep(request, flown_again(again, record_.folder, request, is_for_decision));
 }
 
-void RunSource::fly_again_for_profile() {
+const std::vector<ProfileStage>& RunSource::profile() {
+  expected_.has_profile = true;
   try {
-    fly_again(false);
+    if (!known_.has_profile) fly_again(false);
   } catch (const BadInput&) {
-    if (!expected_belief_ && !expected_decision_) throw;
-    expected_belief_.reset();  // the profile needs no view that can be flown again
-    expected_decision_.reset();
+    if (!expected_.belief && !expected_.decision) throw;
+    expected_.belief.reset();  // the profile needs no view that can be flown again
+    expected_.decision.reset();
     fly_again(false);
   }
-}
-
-const std::vector<ProfileStage>& RunSource::profile() {
-  expects_profile_ = true;
-  if (!profile_) fly_again_for_profile();
-  if (profile_->empty()) throw BadInput(why_no_profile(record_));
-  return *profile_;
+  if (again_.profile.empty()) throw BadInput(why_no_profile(record_));
+  return again_.profile;
 }
 
 const Belief& RunSource::belief_after(std::size_t iteration) {
-  expected_belief_ = iteration;
-  if (!belief_ || belief_->first != iteration) fly_again(false);
-  expected_belief_.reset();
-  return belief_->second;
+  expected_.belief = iteration;
+  if (known_.belief != iteration) fly_again(false);
+  expected_.belief.reset();
+  return *again_.belief;
 }
 
 const ReplayedDecision& RunSource::decision(std::size_t iteration) {
-  expected_decision_ = iteration;
-  if (!decision_ || decision_->first != iteration) fly_again(true);
-  expected_decision_.reset();
-  return decision_->second;
+  expected_.decision = iteration;
+  if (known_.decision != iteration) fly_again(true);
+  expected_.decision.reset();
+  return *again_.decision;
 }
 
 void RunSource::forget() {
@@ -201,8 +202,14 @@ void RunSource::forget() {
   cloud_.reset();
   plans_.reset();
   reference_.reset();
-  if (!expected_belief_) belief_.reset();
-  if (!expected_decision_) decision_.reset();
+  if (!expected_.belief) {
+    known_.belief.reset();
+    again_.belief.reset();
+  }
+  if (!expected_.decision) {
+    known_.decision.reset();
+    again_.decision.reset();
+  }
 }
 
 }  // namespace gnbv

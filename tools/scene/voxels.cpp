@@ -1,4 +1,4 @@
-#include "tools/render/voxel_items.hpp"
+#include "tools/scene/voxels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,22 @@ namespace {
 constexpr std::array<std::array<std::uint32_t, 4>, 6> kQuads = {
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
-Vec3f corner(const Vec3& centre_m, double half_m, std::uint32_t i) {
-  return (centre_m +
-          half_m * Vec3((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1))
-      .cast<float>();
+/// Adds those of a cube's six faces that `is_shown(side)`: four corners and two triangles each.
+template <typename IsShown>
+void add_cube(const Vec3& centre_m, double half_m, const Rgb& colour, const IsShown& is_shown,
+              SurfaceItem& item) {
+  item.crease_rad = 0.0;
+  for (std::size_t side = 0; side < kQuads.size(); ++side) {
+    if (!is_shown(side)) continue;
+    const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
+    for (const std::uint32_t i : kQuads[side]) {
+      const Vec3 corner((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+      item.mesh.vertices_m.push_back((centre_m + half_m * corner).cast<float>());
+      item.vertex_colours.push_back(colour);
+    }
+    item.mesh.faces.push_back({first, first + 1, first + 2});
+    item.mesh.faces.push_back({first, first + 2, first + 3});
+  }
 }
 
 Key neighbour(Key key, std::size_t quad) {
@@ -73,19 +85,10 @@ SurfaceItem voxel_cubes(const GridGeometry& geometry, std::span<const VoxelIndex
   GNBV_CHECK(colours.size() == 1 || colours.size() == voxels.size(), "{} colours for {} voxels",
              colours.size(), voxels.size());
   SurfaceItem item;
-  item.crease_rad = 0.0;
-  const double half_m = 0.5 * share * geometry.resolution_m();
   for (std::size_t v = 0; v < voxels.size(); ++v) {
-    const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
-    const Vec3 centre_m = geometry.center_m(geometry.key_at(voxels[v]));
-    for (std::uint32_t i = 0; i < 8; ++i) {
-      item.mesh.vertices_m.push_back(corner(centre_m, half_m, i));
-      item.vertex_colours.push_back(colours[colours.size() == 1 ? 0 : v]);
-    }
-    for (const auto& quad : kQuads) {
-      item.mesh.faces.push_back({first + quad[0], first + quad[1], first + quad[2]});
-      item.mesh.faces.push_back({first + quad[0], first + quad[2], first + quad[3]});
-    }
+    add_cube(
+        geometry.center_m(geometry.key_at(voxels[v])), 0.5 * share * geometry.resolution_m(),
+        colours[colours.size() == 1 ? 0 : v], [](std::size_t) { return true; }, item);
   }
   return item;
 }
@@ -94,22 +97,13 @@ SurfaceItem exposed_faces(const VoxelSet& voxels, double size_m, std::span<const
   GNBV_CHECK(colours.size() == voxels.size(), "{} colours for {} voxels", colours.size(),
              voxels.size());
   SurfaceItem item;
-  item.crease_rad = 0.0;
   for (std::size_t v = 0; v < voxels.size(); ++v) {
-    const std::array<std::int64_t, 3> index = index_of(voxels[v]);
-    const Vec3 centre_m = voxel_centre_m(voxels[v], size_m);
-    for (std::size_t side = 0; side < kQuads.size(); ++side) {
-      std::array<std::int64_t, 3> beside = index;
+    const auto is_exposed = [&](std::size_t side) {
+      std::array<std::int64_t, 3> beside = index_of(voxels[v]);
       beside[side / 2] += side % 2 == 0 ? -1 : 1;
-      if (std::binary_search(voxels.begin(), voxels.end(), code_of(beside))) continue;
-      const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
-      for (const std::uint32_t i : kQuads[side]) {
-        item.mesh.vertices_m.push_back(corner(centre_m, 0.5 * size_m, i));
-        item.vertex_colours.push_back(colours[v]);
-      }
-      item.mesh.faces.push_back({first, first + 1, first + 2});
-      item.mesh.faces.push_back({first, first + 2, first + 3});
-    }
+      return !std::binary_search(voxels.begin(), voxels.end(), code_of(beside));
+    };
+    add_cube(voxel_centre_m(voxels[v], size_m), 0.5 * size_m, colours[v], is_exposed, item);
   }
   return item;
 }
@@ -118,56 +112,57 @@ SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> vo
                        const Rgb& colour, float opacity) {
   const GridGeometry& geometry = grid.geometry();
   SurfaceItem item;
-  item.crease_rad = 0.0;
   item.opacity = opacity;
   for (const VoxelIndex v : voxels) {
     const Key key = geometry.key_at(v);
-    for (std::size_t side = 0; side < kQuads.size(); ++side) {
-      if (!is_free(grid, neighbour(key, side))) continue;
-      const auto first = static_cast<std::uint32_t>(item.mesh.vertices_m.size());
-      for (const std::uint32_t i : kQuads[side]) {
-        item.mesh.vertices_m.push_back(
-            corner(geometry.center_m(key), 0.5 * geometry.resolution_m(), i));
-      }
-      item.mesh.faces.push_back({first, first + 1, first + 2});
-      item.mesh.faces.push_back({first, first + 2, first + 3});
-    }
+    add_cube(
+        geometry.center_m(key), 0.5 * geometry.resolution_m(), colour,
+        [&](std::size_t side) { return is_free(grid, neighbour(key, side)); }, item);
   }
-  item.vertex_colours.assign(item.mesh.vertices_m.size(), colour);
   return item;
 }
 
-bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_world_m,
-               double beside_m) {
+bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
+           double beside_m) {
+  if (!is_within(view, p_world_m)) return false;
   const GridGeometry& geometry = grid.geometry();
   const Vec3 away_m = view.T_world_camera.translation() - p_world_m;
   const Vec3 along = away_m.normalized();
   for (double t = beside_m; t < away_m.norm(); t += 0.5 * geometry.resolution_m()) {
     const Vec3 at_m = p_world_m + t * along;
-    if (grid.state_at(at_m) == VoxelState::occupied) return true;
-    if (!geometry.contains(geometry.key_of(at_m)))
-      return false;  // beyond the map, and away from it
+    if (grid.state_at(at_m) == VoxelState::occupied) return false;
+    if (!geometry.contains(geometry.key_of(at_m))) return true;  // beyond the map, and away from it
   }
-  return false;
+  return true;
 }
 
-bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
-           double beside_m) {
-  return is_within(view, p_world_m) && !is_hidden(grid, view, p_world_m, beside_m);
-}
-
-bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view) {
-  const std::vector<Vec3f>& vertices_m = faces.mesh.vertices_m;
-  const Vec3 eye_m = view.T_world_camera.translation();
-  for (std::size_t i = 0; i + 3 < vertices_m.size(); i += 4) {
-    const Vec3 first_m = vertices_m[i].cast<double>();
-    const Vec3 middle_m = 0.5 * (first_m + vertices_m[i + 2].cast<double>());
-    const Vec3 normal = (vertices_m[i + 1].cast<double>() - first_m)
-                            .cross(vertices_m[i + 2].cast<double>() - first_m);
-    if (normal.dot(eye_m - middle_m) <= 0.0) continue;
-    if (shows(view, grid, middle_m, 0.5 * grid.geometry().resolution_m())) return true;
+bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderScene& scene,
+               const Rgb& colour) {
+  const double resolution_m = grid.geometry().resolution_m();
+  const auto is_shown = [&](const Vec3f& p_m, double beside_m) {
+    return shows(view, grid, p_m.cast<double>(), beside_m);
+  };
+  const Vec3f eye_m = view.T_world_camera.translation().cast<float>();
+  const auto shows_face = [&](const SurfaceItem& surface, std::size_t first) {
+    const Vec3f* const corner_m = surface.mesh.vertices_m.data() + first;
+    const Vec3f middle_m = 0.5F * (corner_m[0] + corner_m[2]);
+    const Vec3f normal = (corner_m[1] - corner_m[0]).cross(corner_m[2] - corner_m[0]);
+    return normal.dot(eye_m - middle_m) > 0.0F && is_shown(middle_m, 0.5 * resolution_m);
+  };
+  for (const SurfaceItem& surface : scene.surfaces) {
+    for (std::size_t k = 0; k + 3 < surface.vertex_colours.size(); k += 4) {
+      if (surface.vertex_colours[k] == colour && shows_face(surface, k)) return true;
+    }
   }
-  return false;
+  const double within_m = 0.9 * resolution_m;
+  return std::any_of(scene.tubes.begin(), scene.tubes.end(),
+                     [&](const TubeItem& tube) {
+                       const Vec3f middle_m = 0.5F * (tube.points_m.front() + tube.points_m.back());
+                       return tube.colours.front() == colour && is_shown(middle_m, within_m);
+                     }) ||
+         std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {
+           return ball.colour == colour && is_shown(ball.centre_m, within_m);
+         });
 }
 
 }  // namespace gnbv

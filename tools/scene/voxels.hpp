@@ -1,4 +1,4 @@
-// Voxels of the map as things to draw.
+// Voxels as things to draw, and what they hide.
 #pragma once
 
 #include <span>
@@ -6,8 +6,7 @@
 
 #include "bench/score/voxel_set.hpp"
 #include "planner/map/occupancy_grid.hpp"
-#include "tools/render/scene.hpp"
-#include "tools/render/view.hpp"
+#include "tools/scene/scene.hpp"
 
 namespace gnbv {
 
@@ -34,16 +33,14 @@ SurfaceItem exposed_faces(const VoxelSet& voxels, double size_m, std::span<const
 SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> voxels,
                        const Rgb& colour, float opacity);
 
-/// Whether an occupied voxel lies between the camera and a place, farther from this than
-/// `beside_m`.
-bool is_hidden(const OccupancyGrid& grid, const RenderView& view, const Vec3& p_world_m,
-               double beside_m);
-
-/// Whether the picture holds the place, and no occupied voxel farther than `beside_m` hides it.
+/// Whether the picture holds the place, and no occupied voxel farther from it than `beside_m` hides
+/// it.
 bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
            double beside_m);
 
-/// Whether any of free_faces() is turned to the camera, within its picture, and not hidden.
-bool is_seen(const SurfaceItem& faces, const OccupancyGrid& grid, const RenderView& view);
+/// Whether the picture shows anything of that colour: a ball, the middle of a tube, or of a face of
+/// the surfaces above. These may lie within an occupied voxel, but not behind it.
+bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderScene& scene,
+               const Rgb& colour);
 
 }  // namespace gnbv

@@ -1,8 +1,7 @@
-#include "tools/render/flight_items.hpp"
+#include "tools/scene/flight.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 
 namespace gnbv {
 namespace {
@@ -33,15 +32,6 @@ std::vector<std::size_t> simplified(const std::vector<Vec3>& path, double tolera
   return kept;
 }
 
-// Metres flown since the profile's flight ended.
-double planned_metres(const RunRecord& record, const std::vector<Vec3>& path, double begin_s) {
-  double metres = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (record.path[i - 1].time_s >= begin_s) metres += (path[i] - path[i - 1]).norm();
-  }
-  return metres;
-}
-
 // How far a time is in the order of the views: 0 at the first one, 1 at the last.
 double share_of_views(std::span<const ViewRecord> views, double time_s) {
   const auto is_later = [](double t_s, const ViewRecord& view) { return t_s < view.time_s; };
@@ -54,9 +44,23 @@ double share_of_views(std::span<const ViewRecord> views, double time_s) {
          static_cast<double>(views.size() - 1);
 }
 
-}  // namespace
+constexpr int kDiscSides = 28;
 
-const Rgb kProfileColour = srgb(0x7b8896);
+SurfaceItem disc(const Isometry& T_world_disc, double radius_m, const Rgb& colour) {
+  SurfaceItem item;
+  item.mesh.vertices_m.push_back(T_world_disc.translation().cast<float>());
+  for (std::uint32_t i = 0; i < kDiscSides; ++i) {
+    const double angle = 2.0 * kPi * i / kDiscSides;
+    item.mesh.vertices_m.push_back(
+        (T_world_disc * Vec3(radius_m * std::cos(angle), radius_m * std::sin(angle), 0.0))
+            .cast<float>());
+    item.mesh.faces.push_back({0, 1 + i, 1 + (i + 1) % kDiscSides});
+  }
+  item.vertex_colours.assign(item.mesh.vertices_m.size(), colour);
+  return item;
+}
+
+}  // namespace
 
 void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& scene) {
   if (record.path.empty()) return;
@@ -65,11 +69,14 @@ void add_flight(const RunRecord& record, const FlightLook& look, RenderScene& sc
     path.push_back(sample.T_world_body.translation());
   }
   const double begin_s = record.views_begin_s.value_or(record.path.front().time_s);
-  const double total_m = std::max(planned_metres(record, path, begin_s), 1e-9);
+  double planned_m = 1e-9;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (record.path[i - 1].time_s >= begin_s) planned_m += (path[i] - path[i - 1]).norm();
+  }
   const double width_m = look.thickness * look.unit_m;
-  TubeItem profile{{}, {kProfileColour}, static_cast<float>(0.9 * width_m)};
+  TubeItem profile{{}, {looks::kProfile.rgb()}, static_cast<float>(0.9 * width_m)};
   TubeItem planned{{}, {}, static_cast<float>(1.8 * width_m)};
-  for (const std::size_t i : simplified(path, 0.25 * look.unit_m, total_m / 150.0)) {
+  for (const std::size_t i : simplified(path, 0.25 * look.unit_m, planned_m / 150.0)) {
     if (record.path[i].time_s > look.until_s) break;
     const Vec3f p = path[i].cast<float>();
     const bool is_profile = record.path[i].time_s < begin_s;
@@ -86,34 +93,36 @@ std::size_t pyramid_step(std::size_t views, int every) {
   return every > 0 ? static_cast<std::size_t>(every) : 1 + views / 40;
 }
 
-void add_views(const RunRecord& record, std::size_t count, int every, const FlightLook& look,
-               RenderScene& scene) {
-  const std::size_t all = record.views.size();
-  const std::size_t step = pyramid_step(all, every);
+void add_views(const RunRecord& record, int every, const FlightLook& look, RenderScene& scene) {
+  const std::size_t count = record.views.size();
+  const std::size_t step = pyramid_step(count, every);
   const double unit_m = look.thickness * look.unit_m;
-  for (std::size_t i = 0; i < std::min(count, all); ++i) {
-    const ViewPose& pose = record.views[i].decision.view;
-    const Rgb colour =
-        path_ramp(all > 1 ? static_cast<double>(i) / static_cast<double>(all - 1) : 0.0);
-    scene.balls.push_back({pose.p_world_m.cast<float>(), static_cast<float>(3.2 * unit_m), colour});
-    if (i % step != 0) continue;
-    for (const CameraConfig& camera : record.scenario.cameras) {
-      FrustumItem frustum =
-          frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, 27.0 * look.unit_m, colour);
-      frustum.edge_radius_m = static_cast<float>(0.75 * unit_m);
-      frustum.face_opacity = 0.25F;
-      add_hung(frustum, pose, unit_m, scene);
-    }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(std::max(count, 2UL) - 1);
+    const ViewSize mark{.ball_m = 3.2 * unit_m,
+                        .pyramid_m = i % step == 0 ? 27.0 * look.unit_m : 0.0,
+                        .edge_m = 0.75 * unit_m,
+                        .face_opacity = 0.25F};
+    add_view(record.scenario.cameras, record.views[i].decision.view, mark, path_ramp(share), scene);
   }
 }
 
-void add_hung(const FrustumItem& frustum, const ViewPose& view, double unit_m, RenderScene& scene) {
+void add_view(std::span<const CameraConfig> cameras, const ViewPose& view, const ViewSize& mark,
+              const Rgb& colour, RenderScene& scene) {
   const Vec3f body = view.p_world_m.cast<float>();
-  const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
-  if ((apex - body).norm() > 6.0 * unit_m) {  // whose view it is could not be told
-    scene.tubes.push_back({{body, apex}, {frustum.colour}, frustum.edge_radius_m});
+  if (mark.ball_m > 0.0) scene.balls.push_back({body, static_cast<float>(mark.ball_m), colour});
+  if (mark.pyramid_m <= 0.0) return;
+  for (const CameraConfig& camera : cameras) {
+    FrustumItem frustum =
+        frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, mark.pyramid_m, colour);
+    frustum.edge_radius_m = static_cast<float>(mark.edge_m);
+    frustum.face_opacity = mark.face_opacity;
+    const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
+    if ((apex - body).norm() > 8.0 * mark.edge_m) {  // whose view it is could not be told
+      scene.tubes.push_back({{body, apex}, {colour}, frustum.edge_radius_m});
+    }
+    scene.frusta.push_back(std::move(frustum));
   }
-  scene.frusta.push_back(frustum);
 }
 
 FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,
@@ -135,6 +144,33 @@ TubeItem path_tube(const std::vector<Vec3>& path_world_m, double unit_m, const R
     tube.points_m.push_back(path_world_m[i].cast<float>());
   }
   return tube;
+}
+
+double rotor_span_m(const AirframeParameters& airframe) {
+  double span_m = 0.0;
+  for (const RotorMount& a : airframe.rotors) {
+    for (const RotorMount& b : airframe.rotors) {
+      span_m = std::max(span_m, (a.p_body_m - b.p_body_m).norm());
+    }
+  }
+  return span_m;
+}
+
+void add_vehicle(const AirframeParameters& airframe, const Isometry& T_world_body, double scale,
+                 RenderScene& scene) {
+  const double span_m = scale * rotor_span_m(airframe);
+  const auto tube_m = static_cast<float>(0.03 * span_m);
+  const Vec3f centre = T_world_body.translation().cast<float>();
+  scene.balls.push_back({centre, static_cast<float>(0.14 * span_m), looks::kHull.rgb(), true});
+  for (const RotorMount& rotor : airframe.rotors) {
+    const Vec3 hub = scale * rotor.p_body_m;
+    const Rgb colour = (rotor.p_body_m.x() > 0.0 ? looks::kFrontRotors : looks::kRearRotors).rgb();
+    scene.tubes.push_back(
+        {{centre, (T_world_body * hub).cast<float>()}, {looks::kHull.rgb()}, tube_m, true});
+    Isometry T_world_disc = T_world_body;
+    T_world_disc.translation() = T_world_body * (hub + Vec3(0.0, 0.0, 0.06 * span_m));
+    scene.surfaces.push_back(disc(T_world_disc, 0.21 * span_m, colour));
+  }
 }
 
 }  // namespace gnbv

@@ -51,9 +51,7 @@ class RunSource {
   void forget();
 
   /// What will be asked for, so that it comes from one flight.
-  void expect_profile();
-  void expect_belief_after(std::size_t iteration);
-  void expect_decision(std::size_t iteration);
+  void expect(const ReplayRequest& request);
   /// Begins that flight now, beside whatever else is drawn; who asks for its results waits for it.
   void fly_ahead();
 
@@ -63,7 +61,6 @@ class RunSource {
   void keep(const ReplayRequest& request, Replayed again);
   void land();                           // waits for the flight ahead
   void fly_again(bool is_for_decision);  // for all that is expected and not there
-  void fly_again_for_profile();          // with the rest, or alone when that cannot be had
 
   RunRecord record_;
   int threads_ = 1;
@@ -73,12 +70,10 @@ class RunSource {
   std::optional<RunCloud> cloud_;
   std::optional<std::vector<MadePlan>> plans_;
   std::optional<SurfaceReference> reference_;
-  std::optional<std::vector<ProfileStage>> profile_;
-  bool expects_profile_ = false;
-  std::optional<std::size_t> expected_belief_, expected_decision_;
-  // of belief and decision only the one last asked for: maps may be large
-  std::optional<std::pair<std::size_t, Belief>> belief_;
-  std::optional<std::pair<std::size_t, ReplayedDecision>> decision_;
+  ReplayRequest expected_ = {.waypoints = {1, 3}};
+  ReplayRequest known_ =
+      {};  // what `again_` holds: of beliefs and decisions the one last asked for
+  Replayed again_ = {};
   ReplayRequest asked_ahead_;
   std::future<Replayed> ahead_;  // last: ends before what it reads
 };
