@@ -15,7 +15,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/render_options.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/render/movie.hpp"
+#include "tools/render/film.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
 #include "tools/run/file_names.hpp"
@@ -148,7 +148,8 @@ class RenderCommand {
       const auto draw_one = [&] {
         if (name == "movie") return film(*run, layout);
         if (name == "snapshots") return shoot(*run, layout);
-        drawn = draw_without_words(kind, *run, shared, layout, renderer_);
+        drawn = draw_without_words(kind.draw(*run, shared, layout.view), title_of(*run, shared),
+                                   shared, layout, renderer_);
         written(path_of(*run, name, ".png"), with_words(drawn));
       };
       const bool is_able = std::count(able.begin(), able.end(), run) > 0;
@@ -181,7 +182,7 @@ class RenderCommand {
   void film(RunSource& run, const PanelLayout& layout) {
     const fs::path path = path_of(run, "movie", has_ffmpeg() ? ".mp4" : ".apng");
     make_folder_of(path);
-    Movie movie(path, layout.view.width_px, layout.view.height_px, options_.images_per_s);
+    Film movie(path, options_.picture.width_px, options_.picture.height_px, options_.images_per_s);
     Snapshots snapshots(run, options_.picture, layout.view, options_.follows);
     const auto images = static_cast<std::size_t>(
         std::lround(options_.film_s * static_cast<double>(options_.images_per_s)));
@@ -214,10 +215,11 @@ class RenderCommand {
     const std::optional<int>& asked = options_.picture.iteration;
     const auto iteration = static_cast<std::size_t>(asked.value_or(0));
     if (views == 0 || (asked && iteration >= views)) return;  // which the pictures will say
-    if (is_asked("profile")) run.expect_profile();
-    if (is_asked("voxels")) run.expect_belief_after(asked ? iteration : views - 1);
+    ReplayRequest request{.has_profile = is_asked("profile")};
+    if (is_asked("voxels")) request.belief = asked ? iteration : views - 1;
     const std::size_t decision = asked ? iteration : views / 2;
-    if (is_asked("candidates") && decision > 0) run.expect_decision(decision);
+    if (is_asked("candidates") && decision > 0) request.decision = decision;
+    run.expect(request);
   }
 
   /// RUN/NAME without --out, else the file or FOLDER/NAME; of several runs FOLDER/RUN-NAME.

@@ -9,15 +9,11 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/shared_options.hpp"
-#include "tools/render/camera_choice.hpp"
-#include "tools/render/pictures.hpp"
+#include "tools/render/film.hpp"
+#include "tools/render/picture.hpp"
 
 namespace gnbv {
 namespace {
-
-bool is_film_name(const std::filesystem::path& path) {
-  return path.extension() == ".mp4" || path.extension() == ".gif" || path.extension() == ".apng";
-}
 
 std::string help_on_what() {
   std::string help = "what to draw, separated by commas, or all:";
@@ -25,7 +21,7 @@ std::string help_on_what() {
     help += fmt::format("\n{} = {}", kind->name, kind->shows);
   }
   return help + "\nsnapshots = third-person images each --every views" +
-         "\nmovie = the flight as a film, by ffmpeg or as an animated PNG";
+         "\nmovie = the flight as a film: MP4 by ffmpeg, or APNG, GIF or WebP by Pillow";
 }
 
 void add_camera_options(CLI::App& command, RenderOptions& options) {
@@ -51,7 +47,7 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
 }  // namespace
 
 bool is_file_name(const std::filesystem::path& path) {
-  return path.extension() == ".png" || is_film_name(path);
+  return path.extension() == ".png" || is_film_ending(path.extension());
 }
 
 bool is_series(const std::string& kind) { return kind == "snapshots" || kind == "movie"; }
@@ -85,19 +81,19 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
                     "folder",
                     options.out.string(), options.runs.size(), kinds.size()));
   }
-  if (is_one_file &&
-      (kinds.front() == "snapshots" || is_film_name(options.out) != (kinds.front() == "movie"))) {
+  if (is_one_file && (kinds.front() == "snapshots" ||
+                      is_film_ending(options.out.extension()) != (kinds.front() == "movie"))) {
     const char* const endings =
-        kinds.front() == "movie" ? "ends in .mp4, .gif or .apng" : "ends in .png";
+        kinds.front() == "movie" ? "ends in .mp4, .gif, .apng or .webp" : "ends in .png";
     throw BadInput(fmt::format("--out {}: {}", options.out.string(),
                                kinds.front() == "snapshots"
                                    ? "snapshots are many files: name a folder"
                                    : fmt::format("the name of a {} {}", kinds.front(), endings)));
   }
-  for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".bmp", ".webp",
-                            ".webm", ".avi", ".mov", ".mkv"}) {
+  for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".bmp", ".webm",
+                            ".avi", ".mov", ".mkv"}) {
     if (extension_of(options.out) != other) continue;
-    throw BadInput(fmt::format("--out {}: pictures are .png, movies .mp4, .gif or .apng",
+    throw BadInput(fmt::format("--out {}: pictures are .png, movies .mp4, .gif, .apng or .webp",
                                options.out.string()));
   }
   if (!options.sheet.empty() && extension_of(options.sheet) != ".png") {
@@ -141,8 +137,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  command.add_option("-o,--out", options.out,
-                     "PNG, MP4, GIF or APNG to write, or a folder (default: the run directory)");
+  command.add_option(
+      "-o,--out", options.out,
+      "PNG, MP4, GIF, APNG or WebP to write, or a folder (default: the run directory)");
   command.add_option(
       "--sheet", options.sheet,
       "also a PNG with all pictures side by side: a column a run, a row a kind, lettered (a), "

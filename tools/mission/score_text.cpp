@@ -7,7 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
-#include "tools/run/score_json.hpp"
+#include "tools/run/summary_json.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {

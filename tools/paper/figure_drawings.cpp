@@ -10,10 +10,9 @@
 #include "tools/figures/run_figures.hpp"
 #include "tools/paper/comparisons.hpp"
 #include "tools/paper/figures.hpp"
-#include "tools/render/camera_choice.hpp"
-#include "tools/render/flight_items.hpp"
 #include "tools/render/grid_samples.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/flight.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 
@@ -173,7 +172,7 @@ void draw_path_in_map_figure(FigureDesk& desk) {
     Picture picture = kVoxelsPicture.draw(run, options, layout.view);
     const FlightLook look{.unit_m = layout_unit_m(layout.view), .has_profile = true};
     add_flight(record, look, picture.panels.front().scene);
-    add_views(record, record.views.size(), options.every, look, picture.panels.front().scene);
+    add_views(record, options.every, look, picture.panels.front().scene);
     desk.add(fmt::format("path-{}", camera), label,
              draw_picture(picture, run, options, layout, desk.renderer()));
   }

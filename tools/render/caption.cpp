@@ -11,14 +11,12 @@ namespace {
 
 // all lengths here are in layout units
 constexpr double kBorder = kCaptionBorder;
+constexpr Rgb8 kPaleInk = {92, 100, 112};
 constexpr double kLetter = 10.0;
 constexpr double kRow = 22.0;
 constexpr double kBar = 120.0;
-constexpr double kGap = 20.0;  // between items
-constexpr double kHalo = 2.5;
+constexpr double kGap = 20.0;         // between items
 constexpr double kPaperBorder = 7.0;  // above and below the legend
-constexpr Rgb8 kSheet = {246, 248, 250};
-constexpr double kSheetOpacity = 0.92;
 
 // The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
 double round_length_m(double limit_m) {
@@ -50,14 +48,6 @@ double item_width(const LegendItem& item) {
 }
 
 bool is_pale(const Rgb8& colour) { return *std::min_element(colour.begin(), colour.end()) > 225; }
-
-void draw_square(Image& image, const std::array<double, 2>& middle, double half_px,
-                 const Rgb8& colour) {
-  for (double dy = -half_px; dy <= half_px; dy += 0.5) {
-    draw_line(image, {middle[0] - half_px, middle[1] + dy}, {middle[0] + half_px, middle[1] + dy},
-              1.0, colour);
-  }
-}
 
 // As high as the number on it asks for, which is white on what is dark and ink on what is not.
 void draw_bar(Image& image, const LegendItem& item, double x, double y, double u) {
@@ -109,9 +99,11 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
       draw_line(image, {middle, y}, {middle, y}, 4.5 * u, {255, 255, 255});
       break;
     case LegendItem::Mark::square:
-      // white would not show on the sheet
-      draw_square(image, {middle, y}, 5.0 * u, is_pale(colour) ? kPaleInk : colour);
-      draw_square(image, {middle, y}, 4.0 * u, colour);
+      // white would not show on the paper
+      draw_box(image, {middle - 5.0 * u, y - 5.0 * u}, {middle + 5.0 * u, y + 5.0 * u},
+               is_pale(colour) ? kPaleInk : colour, 1.0);
+      draw_box(image, {middle - 4.0 * u, y - 4.0 * u}, {middle + 4.0 * u, y + 4.0 * u}, colour,
+               1.0);
       break;
   }
 }
@@ -123,31 +115,9 @@ struct Placed {
   double y;
 };
 
-// From the right, the last item lowest; what meets the scale goes above it.
-std::vector<Placed> placed(const Image& image, const std::vector<LegendItem>& legend, double u,
-                           double bottom, double left_limit) {
-  std::vector<Placed> places;
-  double right = image.width_px - kBorder * u;
-  double y = bottom;
-  bool is_row_empty = true;
-  for (std::size_t i = legend.size(); i-- > 0;) {
-    const double width = item_width(legend[i]) * u;
-    const double limit = y == bottom ? left_limit + kGap * u : kBorder * u;
-    const bool may_move = !is_row_empty || y == bottom;
-    if (may_move && right - width < limit) {
-      right = image.width_px - kBorder * u;
-      y -= kRow * u;
-    }
-    places.push_back({&legend[i], right - width, y});
-    right -= width + kGap * u;
-    is_row_empty = false;
-  }
-  return places;
-}
-
 // From the left, the first item highest, in the middle of the paper; where it is too low for all
 // rows, the first ones lie above it.
-std::vector<Placed> placed_on_paper(const Image& image, const Caption& caption, double u) {
+std::vector<Placed> placed(const Image& image, const Caption& caption, double u) {
   std::vector<Placed> places;
   double x = kBorder * u;
   double y = 0.0;
@@ -167,7 +137,12 @@ std::vector<Placed> placed_on_paper(const Image& image, const Caption& caption, 
   return places;
 }
 
-void draw_items(Image& image, const std::vector<Placed>& places, double u) {
+void draw_legend(Image& image, const Caption& caption, double u) {
+  const std::vector<Placed> places = placed(image, caption, u);
+  if (places.empty()) return;
+  const double top = std::min<double>(image.height_px - caption.paper_px,
+                                      places.front().y - (0.5 * kRow + kPaperBorder) * u);
+  draw_box(image, {0.0, top}, {1.0 * image.width_px, 1.0 * image.height_px}, {255, 255, 255}, 1.0);
   for (const auto& [item, x_begin, y] : places) {
     double x = x_begin;
     if (!item->label_before.empty()) {
@@ -179,44 +154,10 @@ void draw_items(Image& image, const std::vector<Placed>& places, double u) {
   }
 }
 
-// On paper of its own: what lies behind it would be read as part of it.
-void draw_legend(Image& image, const std::vector<Placed>& places, double u) {
-  const double right = image.width_px - (kBorder - 12.0) * u;
-  for (std::size_t i = 0; i < places.size(); ++i) {  // the last of a row is the leftmost
-    if (i + 1 < places.size() && places[i + 1].y == places[i].y) continue;
-    const double y = places[i].y;
-    draw_box(image, {places[i].x - 12.0 * u, y - 0.5 * kRow * u}, {right, y + 0.5 * kRow * u},
-             kSheet, kSheetOpacity);
-  }
-  draw_items(image, places, u);
-}
-
-void draw_legend_on_paper(Image& image, const Caption& caption, double u) {
-  const std::vector<Placed> places = placed_on_paper(image, caption, u);
-  if (places.empty()) return;
-  const double top = std::min<double>(image.height_px - caption.paper_px,
-                                      places.front().y - (0.5 * kRow + kPaperBorder) * u);
-  draw_box(image, {0.0, top}, {1.0 * image.width_px, 1.0 * image.height_px}, {255, 255, 255}, 1.0);
-  draw_items(image, places, u);
-}
-
 }  // namespace
 
 double layout_unit_px(int width_px, int height_px) {
   return std::max(0.7, std::min(width_px / 1280.0, height_px / 720.0));
-}
-
-bool fits_caption(int width_px, int height_px) { return width_px >= 320 && height_px >= 240; }
-
-FrameMargins caption_margins(int width_px, int height_px, double unit_px, int legend_rows) {
-  const double u = unit_px / height_px;
-  const double rows = std::ceil(legend_rows * std::max(1.0, 1280.0 * unit_px / width_px) - 0.01);
-  // the title fills a corner that wide pictures leave free anyway
-  const bool is_wide = 3 * width_px > 4 * height_px;
-  FrameMargins margins;
-  margins.top = (is_wide ? 34.0 : 82.0) * u;
-  margins.bottom = (32.0 + kRow * rows) * u;
-  return margins;
 }
 
 double legend_paper_height(int rows, double width) {
@@ -227,44 +168,34 @@ double scale_length_m(const RenderView& view) {
   return round_length_m(0.16 * view.width_px / px_per_m_at_focus(view));
 }
 
-double draw_scale(Image& image, const RenderView& view, double u, double length_m) {
-  const double bottom = image.height_px - 24.0 * u;
-  const double px_per_m = px_per_m_at_focus(view);
+void draw_scale(Image& image, const RenderView& view, double u, double length_m) {
+  const double y = image.height_px - 24.0 * u;
   const double x0 = kBorder * u;
-  const double x1 = x0 + length_m * px_per_m;
-  constexpr Rgb8 kPaper = {228, 231, 235};  // a halo, as that of the words
-  for (const auto& [colour, width] : {std::pair{kPaper, 2.0 + 2.0 * kHalo}, {kInk, 2.0}}) {
-    draw_line(image, {x0, bottom}, {x1, bottom}, width * u, colour);
-    for (const double x : {x0, x1}) {
-      draw_line(image, {x, bottom - 5.0 * u}, {x, bottom + 5.0 * u}, width * u, colour);
-    }
+  const double x1 = x0 + length_m * px_per_m_at_focus(view);
+  draw_on_paper(image, fmt::format("{} m at mid-depth", length_m), {x0, x1 + 10.0 * u}, y + 5.0 * u,
+                u);
+  draw_line(image, {x0, y}, {x1, y}, 2.0 * u, kInk);
+  for (const double x : {x0, x1}) {
+    draw_line(image, {x, y - 5.0 * u}, {x, y + 5.0 * u}, 2.0 * u, kInk);
   }
-  return draw_text(image, fmt::format("{} m at mid-depth", length_m), x1 + 10.0 * u,
-                   bottom + 5.0 * u, kLetter * u, kInk, kHalo * u);
 }
 
-double px_per_m_at_focus(const RenderView& view) {
-  return 0.5 * view.height_px / std::tan(0.5 * view.fov_y_rad) / view.focus_m;
+void draw_on_paper(Image& image, const std::string& words, const std::array<double, 2>& x_px,
+                   double baseline_px, double u) {
+  const double end_px = x_px[1] + text_width_px(words, kLetter * u);
+  draw_box(image, {x_px[0] - 5.0 * u, baseline_px - (kLetter + 5.0) * u},
+           {end_px + 5.0 * u, baseline_px + 5.0 * u}, {240, 242, 245}, 0.8);
+  draw_text(image, words, x_px[1], baseline_px, kLetter * u, kInk);
 }
 
-void draw_caption(Image& image, const Caption& caption, const RenderView& view) {
+void draw_caption(Image& image, const Caption& caption) {
   const double u = caption.letters * layout_unit_px(image.width_px, image.height_px);
   const double width = image.width_px - 2.0 * kBorder * u;
-  const double halo = caption.paper_px > 0 || caption.has_sheet ? 0.0 : kHalo * u;
   const double title_px = fitting_height_px(caption.title, 15.0 * u, width);
   const double detail_px = fitting_height_px(caption.detail, kLetter * u, width);
-  if (caption.has_sheet) {
-    const double longest_px =
-        std::max(text_width_px(caption.title, title_px), text_width_px(caption.detail, detail_px));
-    draw_box(image, {(kBorder - 12.0) * u, 16.0 * u}, {(kBorder + 12.0) * u + longest_px, 76.0 * u},
-             kSheet, kSheetOpacity);
-  }
-  draw_text(image, caption.title, kBorder * u, 40.0 * u, title_px, kInk, halo);
-  draw_text(image, caption.detail, kBorder * u, 64.0 * u, detail_px, kPaleInk, halo);
-  if (caption.paper_px > 0) return draw_legend_on_paper(image, caption, u);
-  const double scale_end =
-      caption.has_scale ? draw_scale(image, view, u, scale_length_m(view)) : 0.0;
-  draw_legend(image, placed(image, caption.legend, u, image.height_px - 24.0 * u, scale_end), u);
+  draw_text(image, caption.title, kBorder * u, 36.0 * u, title_px, kInk);
+  draw_text(image, caption.detail, kBorder * u, 60.0 * u, detail_px, kPaleInk);
+  draw_legend(image, caption, u);
 }
 
 }  // namespace gnbv

@@ -26,7 +26,7 @@ Box3 caster_box(const RenderScene& scene, const DrawLists& lists, const Eigen::M
     box.extend(R * lists.vertices[i].p_world_m.cast<double>());
   }
   for (const DrawBall& ball : std::span(lists.balls).first(lists.casting_balls)) {
-    const Vec3 c = R * ball.centre_m.cast<double>();
+    const Vec3 c = R * ball.p_world_m.cast<double>();
     box.extend(Vec3(c.array() - ball.radius_m));
     box.extend(Vec3(c.array() + ball.radius_m));
   }
@@ -57,25 +57,6 @@ void aim_light(const RenderScene& scene, const DrawLists& lists, const Vec3& to_
   frame.camera_up.w() = static_cast<float>(kShadowSide_px);
 }
 
-// Diagonal of what casts shadows: a path far around it says nothing about its hollows.
-double scene_size_m(const RenderScene& scene, const DrawLists& lists) {
-  return std::max(1.0, caster_box(scene, lists, Eigen::Matrix3d::Identity()).diagonal().norm());
-}
-
-// Radius about `centre` of the ground disc: wide enough for the scene and for the shadows on it.
-double ground_radius_m(const RenderScene& scene, const DrawLists& lists, const Vec3& centre,
-                       double scene_radius_m, double ground_z_m, const Vec3& to_light) {
-  double radius_m = scene_radius_m;
-  const Box3 box = caster_box(scene, lists, Eigen::Matrix3d::Identity());
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = box.corner(static_cast<Box3::CornerType>(i));
-    // a light near the horizon throws shadows without end
-    const double t = std::max(0.0, p.z() - ground_z_m) / std::max(0.3, to_light.z());
-    radius_m = std::max(radius_m, (p - t * to_light - centre).head<2>().norm());
-  }
-  return 1.7 * radius_m;
-}
-
 }  // namespace
 
 FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
@@ -97,7 +78,16 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   const double radius_m = std::max(1.0, 0.5 * bounds.diagonal().norm());
   const Vec3 centre = bounds.center();
   const GroundItem ground = scene.ground.value_or(GroundItem{});
-  const double ground_m = ground_radius_m(scene, lists, centre, radius_m, ground.z_m, to_light);
+  // wide enough for the scene and for the shadows on it
+  const Box3 casting = caster_box(scene, lists, Eigen::Matrix3d::Identity());
+  double ground_m = radius_m;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p = casting.corner(static_cast<Box3::CornerType>(i));
+    // a light near the horizon throws shadows without end
+    const double t = std::max(0.0, p.z() - ground.z_m) / std::max(0.3, to_light.z());
+    ground_m = std::max(ground_m, (p - t * to_light - centre).head<2>().norm());
+  }
+  ground_m *= 1.7;
   frame.ground = pack(Vec3(centre.x(), centre.y(), ground.z_m), ground_m);
 
   // the ground may begin behind the camera and end far beyond the scene
@@ -116,9 +106,10 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   frame.lens = {static_cast<float>(view.width_px / (f * view.height_px)),
                 static_cast<float>(1.0 / f), static_cast<float>(near_m), static_cast<float>(far_m)};
   const bool has_ground = scene.ground && eye.z() > scene.ground->z_m;
-  // seen from near, what shades the hollows of the whole would blacken those of its parts
+  // a path far around what casts shadows says nothing about its hollows; and seen from near, what
+  // shades the hollows of the whole would blacken those of its parts
   const double hollow_m =
-      std::min({0.035 * scene_size_m(scene, lists), 0.06 * 2.0 * view.focus_m / f,
+      std::min({0.035 * std::max(1.0, casting.diagonal().norm()), 0.06 * 2.0 * view.focus_m / f,
                 scene.hollow_m.value_or(std::numeric_limits<double>::infinity())});
   frame.hollow = {static_cast<float>(hollow_m), has_ground ? 1.0F : 0.0F, scene.shading, 0.0F};
   frame.clip_from_world = (clip_from_gl * view.T_world_camera.inverse().matrix()).cast<float>();

@@ -2,62 +2,43 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr int kTubeSides = 10;
+constexpr std::uint32_t kTubeSides = 10;
 
 std::array<float, 4> rgba(const Rgb& colour, float opacity = 1.0F) {
   return {colour[0], colour[1], colour[2], opacity};
 }
 
-// Vertices at equal positions get equal numbers, in order of position.
-std::vector<std::uint32_t> weld(const std::vector<Vec3f>& vertices_m) {
+// Corners (3 * face + k) by the place where they stand, whichever vertex that is.
+struct Places {
+  std::vector<std::uint32_t> of_vertex;
+  std::vector<std::vector<std::uint32_t>> corners;
+};
+
+Places places_of(const TriangleMesh& mesh) {
+  const std::vector<Vec3f>& p_m = mesh.vertices_m;
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    return std::lexicographical_compare(vertices_m[a].begin(), vertices_m[a].end(),
-                                        vertices_m[b].begin(), vertices_m[b].end());
+    return std::lexicographical_compare(p_m[a].begin(), p_m[a].end(), p_m[b].begin(), p_m[b].end());
   };
-  std::vector<std::uint32_t> order(vertices_m.size());
+  std::vector<std::uint32_t> order(p_m.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), before);
-  std::vector<std::uint32_t> welded(vertices_m.size());
-  std::uint32_t count = 0;
+  Places places{std::vector<std::uint32_t>(p_m.size()), {}};
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && before(order[i - 1], order[i])) ++count;
-    welded[order[i]] = count;
+    if (i == 0 || before(order[i - 1], order[i])) places.corners.emplace_back();
+    places.of_vertex[order[i]] = static_cast<std::uint32_t>(places.corners.size() - 1);
   }
-  return welded;
-}
-
-struct Corner {
-  std::uint32_t face;
-  std::uint32_t index;  // 0, 1 or 2
-};
-
-// Corners grouped by welded vertex: those of vertex v are corners[first[v] ... first[v + 1]).
-struct CornerTable {
-  std::vector<std::uint32_t> first;
-  std::vector<Corner> corners;
-};
-
-CornerTable corners_by_vertex(const TriangleMesh& mesh, const std::vector<std::uint32_t>& welded) {
-  CornerTable table;
-  table.first.assign(mesh.vertices_m.size() + 1, 0);
-  for (const auto& face : mesh.faces) {
-    for (const std::uint32_t v : face) ++table.first[welded[v] + 1];
+  for (std::uint32_t corner = 0; corner < 3 * mesh.faces.size(); ++corner) {
+    places.corners[places.of_vertex[mesh.faces[corner / 3][corner % 3]]].push_back(corner);
   }
-  std::partial_sum(table.first.begin(), table.first.end(), table.first.begin());
-  table.corners.resize(3 * mesh.faces.size());
-  std::vector<std::uint32_t> next = table.first;
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      table.corners[next[welded[mesh.faces[f][k]]]++] = {f, k};
-    }
-  }
-  return table;
+  return places;
 }
 
 void add_surface(const SurfaceItem& item, bool has_paint, DrawLists& out) {
@@ -91,89 +72,50 @@ void add_surface(const SurfaceItem& item, bool has_paint, DrawLists& out) {
   }
 }
 
-Vec3f any_perpendicular(const Vec3f& d) {
-  return d.cross(std::abs(d.z()) < 0.9F ? Vec3f::UnitZ() : Vec3f::UnitX()).normalized();
+void add_ball(const BallItem& ball, DrawLists& out) {
+  const auto begin = out.balls.begin() + static_cast<std::ptrdiff_t>(out.casting_balls);
+  out.balls.insert(ball.casts_shadow ? begin : out.balls.end(),
+                   {ball.centre_m, ball.radius_m, ball.colour});
+  out.casting_balls += ball.casts_shadow ? 1 : 0;
 }
 
-// A ring of vertices around `p`, across `axis`, starting towards `side`.
-std::uint32_t add_ring(const Vec3f& p, const Vec3f& axis, const Vec3f& side, float radius_m,
-                       const Rgb& colour, DrawLists& out) {
-  const auto first = static_cast<std::uint32_t>(out.vertices.size());
-  const Vec3f other = axis.cross(side);
-  for (int i = 0; i < kTubeSides; ++i) {
-    const float angle = static_cast<float>(2.0 * kPi * i / kTubeSides);
-    const Vec3f n = std::cos(angle) * side + std::sin(angle) * other;
-    out.vertices.push_back({p + radius_m * n, n, rgba(colour)});
-  }
-  return first;
-}
-
-void join_rings(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& indices) {
-  constexpr auto kSides = static_cast<std::uint32_t>(kTubeSides);
-  for (std::uint32_t i = 0; i < kSides; ++i) {
-    const std::uint32_t j = (i + 1) % kSides;
-    indices.insert(indices.end(), {a + i, a + j, b + j, a + i, b + j, b + i});
-  }
-}
-
+// A cylinder a piece, and a ball where pieces meet and end.
 void add_tube(const TubeItem& tube, DrawLists& out) {
   GNBV_CHECK(tube.colours.size() == 1 || tube.colours.size() == tube.points_m.size(),
              "{} colours for {} points", tube.colours.size(), tube.points_m.size());
-  std::vector<std::size_t> kept;  // repeated points have no direction
+  std::vector<std::uint32_t>& triangles = tube.casts_shadow ? out.casting : out.plain;
+  std::optional<std::size_t> before;  // repeated points have no direction
   for (std::size_t i = 0; i < tube.points_m.size(); ++i) {
-    if (kept.empty() || (tube.points_m[i] - tube.points_m[kept.back()]).norm() > 1e-5F) {
-      kept.push_back(i);
+    const Vec3f& p = tube.points_m[i];
+    if (before && (p - tube.points_m[*before]).norm() <= 1e-5F) continue;
+    const Rgb& colour = tube.colours[tube.colours.size() == 1 ? 0 : i];
+    add_ball({p, tube.radius_m, colour, tube.casts_shadow}, out);
+    const std::optional<std::size_t> from = std::exchange(before, i);
+    if (!from) continue;
+    const Vec3f& q = tube.points_m[*from];
+    const Rgb& colour_before = tube.colours[tube.colours.size() == 1 ? 0 : *from];
+    const Vec3f along = (p - q).normalized();
+    const Vec3f side =
+        along.cross(std::abs(along.z()) < 0.9F ? Vec3f::UnitZ() : Vec3f::UnitX()).normalized();
+    const Vec3f other = along.cross(side);
+    const auto first = static_cast<std::uint32_t>(out.vertices.size());
+    for (std::uint32_t k = 0; k < kTubeSides; ++k) {
+      const auto angle = static_cast<float>(2.0 * kPi * k / kTubeSides);
+      const Vec3f n = std::cos(angle) * side + std::sin(angle) * other;
+      out.vertices.push_back({q + tube.radius_m * n, n, rgba(colour_before)});
+      out.vertices.push_back({p + tube.radius_m * n, n, rgba(colour)});
+      const std::uint32_t a = first + 2 * k;
+      const std::uint32_t b = first + 2 * ((k + 1) % kTubeSides);
+      triangles.insert(triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
     }
   }
-  const auto point = [&](std::size_t i) { return tube.points_m[kept[i]]; };
-  const auto colour = [&](std::size_t i) {
-    return tube.colours[tube.colours.size() == 1 ? 0 : kept[i]];
-  };
-  const auto joint = [&](std::size_t i) {
-    out.balls.push_back({point(i), tube.radius_m, colour(i), tube.casts_shadow});
-  };
-  if (kept.empty()) return;
-  joint(0);
-  Vec3f side = Vec3f::Zero();
-  std::uint32_t ring = 0;
-  for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
-    const Vec3f along = (point(i + 1) - point(i)).normalized();
-    const Vec3f before = i == 0 ? along : (point(i) - point(i - 1)).normalized();
-    // gentle bends share one ring, sharp ones (over 25 degrees) start anew behind a ball
-    const bool is_sharp = along.dot(before) < 0.9F;
-    if (i == 0) side = any_perpendicular(along);
-    const auto carry = [&](const Vec3f& axis) {
-      side -= axis * axis.dot(side);
-      side = side.norm() < 1e-3F ? any_perpendicular(axis) : Vec3f(side.normalized());
-    };
-    if (i == 0 || is_sharp) {
-      if (i > 0) joint(i);
-      carry(along);
-      ring = add_ring(point(i), along, side, tube.radius_m, colour(i), out);
-    }
-    Vec3f axis = along;
-    if (i + 2 < kept.size()) {
-      const Vec3f next = (point(i + 2) - point(i + 1)).normalized();
-      if (next.dot(along) >= 0.9F) axis = (along + next).normalized();
-    }
-    carry(axis);
-    const std::uint32_t end = add_ring(point(i + 1), axis, side, tube.radius_m, colour(i + 1), out);
-    join_rings(ring, end, tube.casts_shadow ? out.casting : out.plain);
-    ring = end;
-  }
-  joint(kept.size() - 1);
 }
 
 void add_frustum(const FrustumItem& item, DrawLists& out) {
-  const double x = item.length_m * std::tan(0.5 * item.fov_x_rad);
-  const double y = item.length_m * std::tan(0.5 * item.fov_y_rad);
   const Vec3f apex = item.T_world_camera.translation().cast<float>();
   std::array<Vec3f, 4> base;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double sx = k == 0 || k == 3 ? -x : x;
-    const double sy = k < 2 ? -y : y;
-    base[k] = (item.T_world_camera * Vec3(sx, sy, item.length_m)).cast<float>();
-  }
+  const std::array<Vec3, 4> corners_m = far_corners_m(item);
+  for (std::size_t k = 0; k < 4; ++k) base[k] = corners_m[k].cast<float>();
   TubeItem edge{{base[0], base[1], base[2], base[3], base[0]}, {item.colour}, item.edge_radius_m};
   add_tube(edge, out);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -227,18 +169,15 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, doubl
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) normals[f].fill(face_normals[f]);
     return normals;
   }
-  const std::vector<std::uint32_t> welded = weld(mesh.vertices_m);
-  const CornerTable table = corners_by_vertex(mesh, welded);
+  const Places places = places_of(mesh);
   const auto cos_crease = static_cast<float>(std::cos(crease_rad));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = welded[mesh.faces[f][k]];
       Vec3f sum = Vec3f::Zero();
-      for (std::uint32_t c = table.first[v]; c < table.first[v + 1]; ++c) {
-        const Corner& corner = table.corners[c];
-        if (face_normals[corner.face].dot(face_normals[f]) >= cos_crease) {
-          sum += angles_rad[corner.face][corner.index] * face_normals[corner.face];
-        }
+      for (const std::uint32_t corner : places.corners[places.of_vertex[mesh.faces[f][k]]]) {
+        const std::uint32_t face = corner / 3;
+        if (face_normals[face].dot(face_normals[f]) < cos_crease) continue;
+        sum += angles_rad[face][corner % 3] * face_normals[face];
       }
       normals[f][k] = sum.norm() > 0.0F ? Vec3f(sum.normalized()) : face_normals[f];
     }
@@ -253,22 +192,17 @@ DrawLists make_draw_lists(const RenderScene& scene) {
   }
   for (const TubeItem& item : scene.tubes) add_tube(item, out);
   for (const FrustumItem& item : scene.frusta) add_frustum(item, out);
-  for (const BallItem& item : scene.balls) {
-    out.balls.push_back({item.centre_m, item.radius_m, item.colour, item.casts_shadow});
-  }
+  for (const BallItem& item : scene.balls) add_ball(item, out);
   for (const bool casts_shadow : {true, false}) {
     for (const DotsItem& item : scene.dots) {
       if (item.casts_shadow == casts_shadow) add_dots(item, out);
     }
     if (casts_shadow) out.casting_dots = out.dots.size();
   }
-  const auto plain_balls = std::stable_partition(
-      out.balls.begin(), out.balls.end(), [](const DrawBall& ball) { return ball.casts_shadow; });
-  out.casting_balls = static_cast<std::size_t>(plain_balls - out.balls.begin());
   for (const DrawVertex& vertex : out.vertices) out.bounds_m.extend(vertex.p_world_m);
   for (const DrawBall& ball : out.balls) {
-    out.bounds_m.extend(Vec3f(ball.centre_m.array() - ball.radius_m));
-    out.bounds_m.extend(Vec3f(ball.centre_m.array() + ball.radius_m));
+    out.bounds_m.extend(Vec3f(ball.p_world_m.array() - ball.radius_m));
+    out.bounds_m.extend(Vec3f(ball.p_world_m.array() + ball.radius_m));
   }
   for (const DrawDot& dot : out.dots) out.bounds_m.extend(dot.p_world_m);
   return out;

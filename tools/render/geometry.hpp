@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/render/scene.hpp"
+#include "tools/scene/scene.hpp"
 
 namespace gnbv {
 
@@ -20,10 +20,9 @@ struct DrawVertex {
 };
 
 struct DrawBall {
-  Vec3f centre_m;
+  Vec3f p_world_m;
   float radius_m;
   Rgb rgb;
-  bool casts_shadow;
 };
 
 struct DrawDot {

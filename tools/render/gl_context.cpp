@@ -82,22 +82,15 @@ OsMesa open_osmesa() {
 }  // namespace
 
 GlContext::GlContext() : mesa_(open_osmesa()) {
-  const std::array<int, 15> attributes = {OSMESA_FORMAT,
-                                          OSMESA_RGBA,
-                                          OSMESA_DEPTH_BITS,
-                                          0,
-                                          OSMESA_STENCIL_BITS,
-                                          0,
-                                          OSMESA_PROFILE,
-                                          OSMESA_CORE_PROFILE,
-                                          OSMESA_CONTEXT_MAJOR_VERSION,
-                                          3,
-                                          OSMESA_CONTEXT_MINOR_VERSION,
-                                          3,
-                                          0,
-                                          0,
-                                          0};
-  context_ = mesa_.CreateContextAttribs(attributes.data(), nullptr);
+  // no depth or stencil of its own: all drawing goes to textures
+  constexpr std::array kAttributes = {OSMESA_PROFILE,
+                                      OSMESA_CORE_PROFILE,
+                                      OSMESA_CONTEXT_MAJOR_VERSION,
+                                      3,
+                                      OSMESA_CONTEXT_MINOR_VERSION,
+                                      3,
+                                      0};
+  context_ = mesa_.CreateContextAttribs(kAttributes.data(), nullptr);
   if (context_ == nullptr)
     throw BadInput("libOSMesa offers no OpenGL 3.3 core: Mesa 20 or later is needed");
   make_current();

@@ -1,6 +1,6 @@
 #include "tools/render/grid_samples.hpp"
 
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "planner/guided/view_sampling.hpp"
-#include "tools/render/scene.hpp"
+#include "tools/scene/scene.hpp"
 
 namespace gnbv {
 

@@ -33,34 +33,15 @@ std::string font_file() {
       "it) or the one that GNBV_FONT=FILE names; there is no " GNBV_FONT_FILES);
 }
 
-/// How much of each pixel is covered, 0 to 1, of some rows of a picture.
-struct Cover {
-  int width_px = 0;
-  int top_px = 0;
-  int bottom_px = 0;  // the row after the last
-  std::vector<double> shares = {};
-
-  Cover(int width, int top, int bottom) : width_px(width), top_px(top), bottom_px(bottom) {
-    shares.resize(static_cast<std::size_t>(width_px) *
-                  static_cast<std::size_t>(std::max(0, bottom_px - top_px)));
+void blend(Image& image, int x, int y, double share, const Rgb8& colour) {
+  if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px || share <= 0.0) return;
+  std::uint8_t* const pixel = image.rgb.data() + 3 * (static_cast<std::size_t>(y) *
+                                                          static_cast<std::size_t>(image.width_px) +
+                                                      static_cast<std::size_t>(x));
+  for (std::size_t k = 0; k < 3; ++k) {
+    pixel[k] = static_cast<std::uint8_t>(std::lround((1.0 - share) * pixel[k] + share * colour[k]));
   }
-  void cover(int x, int y, double share) {
-    if (x < 0 || x >= width_px || y < top_px || y >= bottom_px) return;
-    double& old = shares[static_cast<std::size_t>(y - top_px) * static_cast<std::size_t>(width_px) +
-                         static_cast<std::size_t>(x)];
-    old = std::max(old, share);
-  }
-  /// visit(x, y, share) of what is covered at all.
-  template <typename Visit>
-  void for_each(const Visit& visit) const {
-    auto share = shares.begin();
-    for (int y = top_px; y < bottom_px; ++y) {
-      for (int x = 0; x < width_px; ++x, ++share) {
-        if (*share > 0.0) visit(x, y, *share);
-      }
-    }
-  }
-};
+}
 
 class Font {
  public:
@@ -103,16 +84,9 @@ class Font {
     return line;
   }
 
-  /// What the line covers of a picture, and `margin_px` of rows around it.
-  Cover cover_of(const Line& line, const Image& image, double x_px, int baseline_px,
-                 double height_px, int margin_px) const {
+  void draw(const Line& line, double x_px, int baseline_px, double height_px, const Rgb8& colour,
+            Image& image) const {
     const double scale = px_per_unit(height_px);
-    const auto rows = [&](FT_Pos units) {
-      const double px = std::ceil(scale * static_cast<double>(units));
-      return static_cast<int>(std::clamp(px, 0.0, 1.0 * image.height_px)) + margin_px;
-    };
-    Cover cover(image.width_px, std::max(0, baseline_px - rows(face_->bbox.yMax)),
-                std::min(image.height_px, baseline_px + rows(-face_->bbox.yMin)));
     check(FT_Set_Char_Size(face_, 0, std::lround(64.0 * scale * face_->units_per_EM), 72, 72));
     for (const Letter& letter : line.letters) {
       const double x = x_px + scale * static_cast<double>(letter.x_units);
@@ -121,9 +95,15 @@ class Font {
       check(FT_Load_Glyph(face_, letter.glyph, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP));
       FT_Outline_Translate(&face_->glyph->outline, std::lround(64.0 * (x - column)), 0);
       check(FT_Render_Glyph(face_->glyph, FT_RENDER_MODE_NORMAL));
-      add(*face_->glyph, column, baseline_px, cover);
+      const FT_Bitmap& bitmap = face_->glyph->bitmap;
+      for (int v = 0; v < static_cast<int>(bitmap.rows); ++v) {
+        for (int u = 0; u < static_cast<int>(bitmap.width); ++u) {
+          blend(image, column + face_->glyph->bitmap_left + u,
+                baseline_px - face_->glyph->bitmap_top + v,
+                bitmap.buffer[v * bitmap.pitch + u] / 255.0, colour);
+        }
+      }
     }
-    return cover;
   }
 
  private:
@@ -132,16 +112,6 @@ class Font {
     throw BadInput(fmt::format(
         "{}: cannot be read as a font (FreeType's error {}); GNBV_FONT=FILE names another", file_,
         error));
-  }
-
-  static void add(const FT_GlyphSlotRec& glyph, int x_px, int baseline_px, Cover& cover) {
-    const FT_Bitmap& bitmap = glyph.bitmap;
-    for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
-      for (int column = 0; column < static_cast<int>(bitmap.width); ++column) {
-        cover.cover(x_px + glyph.bitmap_left + column, baseline_px - glyph.bitmap_top + row,
-                    bitmap.buffer[row * bitmap.pitch + column] / 255.0);
-      }
-    }
   }
 
   std::string file_ = font_file();
@@ -156,49 +126,11 @@ const Font& font() {
   return font;
 }
 
-/// What is within `halo_px` of the covered.
-Cover around(const Cover& letters, double halo_px) {
-  struct Dot {
-    int dx = 0;
-    int dy = 0;
-    double share = 0.0;
-  };
-  std::vector<Dot> pen;
-  const int reach = static_cast<int>(std::ceil(halo_px));
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const double share = std::clamp(halo_px + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
-      if (share > 0.0) pen.push_back({dx, dy, share});
-    }
-  }
-  Cover halo(letters.width_px, letters.top_px, letters.bottom_px);
-  letters.for_each([&](int x, int y, double share) {
-    for (const Dot& dot : pen) halo.cover(x + dot.dx, y + dot.dy, dot.share * share);
-  });
-  return halo;
-}
-
-void blend(Image& image, int x, int y, double share, const Rgb8& colour) {
-  std::uint8_t* const pixel = image.rgb.data() + 3 * (static_cast<std::size_t>(y) *
-                                                          static_cast<std::size_t>(image.width_px) +
-                                                      static_cast<std::size_t>(x));
-  for (std::size_t k = 0; k < 3; ++k) {
-    pixel[k] = static_cast<std::uint8_t>(std::lround((1.0 - share) * pixel[k] + share * colour[k]));
-  }
-}
-
-void paint(Image& image, const Cover& cover, const Rgb8& colour) {
-  cover.for_each([&](int x, int y, double share) { blend(image, x, y, share, colour); });
-}
-
 }  // namespace
 
 Rgb8 to_rgb8(const Rgb& linear) {
   Rgb8 out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    out[k] = static_cast<std::uint8_t>(
-        std::lround(255.0F * linear_to_srgb(std::clamp(linear[k], 0.0F, 1.0F))));
-  }
+  for (std::size_t k = 0; k < 3; ++k) out[k] = srgb_byte(std::clamp(linear[k], 0.0F, 1.0F));
   return out;
 }
 
@@ -220,7 +152,7 @@ void draw_line(Image& image, const std::array<double, 2>& from_px,
       const double t = dd > 0.0 ? std::clamp((px * dx + py * dy) / dd, 0.0, 1.0) : 0.0;
       const double distance_px = std::hypot(px - t * dx, py - t * dy);
       const double cover = std::clamp(0.5 * width_px - distance_px + 0.5, 0.0, 1.0);
-      if (cover > 0.0) blend(image, x, y, cover, colour);
+      blend(image, x, y, cover, colour);
     }
   }
 }
@@ -240,14 +172,9 @@ void draw_box(Image& image, const std::array<double, 2>& from_px,
 }
 
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
-                 double height_px, const Rgb8& colour, double halo_px) {
-  constexpr Rgb8 kHalo = {228, 231, 235};
+                 double height_px, const Rgb8& colour) {
   const Font::Line line = font().line_of(text);
-  const int margin_px = 1 + static_cast<int>(std::ceil(halo_px));
-  const Cover letters = font().cover_of(
-      line, image, x_px, static_cast<int>(std::lround(baseline_px)), height_px, margin_px);
-  if (halo_px > 0.0) paint(image, around(letters, halo_px), kHalo);
-  paint(image, letters, colour);
+  font().draw(line, x_px, static_cast<int>(std::lround(baseline_px)), height_px, colour, image);
   return x_px + font().px_per_unit(height_px) * static_cast<double>(line.width_units);
 }
 

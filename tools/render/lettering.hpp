@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "sim/core/image.hpp"
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 
@@ -24,10 +24,9 @@ void draw_box(Image& image, const std::array<double, 2>& from_px,
               const std::array<double, 2>& to_px, const Rgb8& colour, double opacity);
 
 /// UTF-8, each code point its own letter; bytes that are none appear as the replacement character.
-/// `height_px` is that of a capital. A halo of that width keeps it legible on a busy picture.
-/// Returns the x where the text ends.
+/// `height_px` is that of a capital. Returns the x where the text ends.
 double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
-                 double height_px, const Rgb8& colour, double halo_px = 0.0);
+                 double height_px, const Rgb8& colour);
 
 /// Width of what draw_text() would draw.
 double text_width_px(std::string_view text, double height_px);

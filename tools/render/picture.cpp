@@ -1,12 +1,77 @@
 #include "tools/render/picture.hpp"
 
+#include <algorithm>
+
+#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
-#include "tools/render/paint.hpp"
+#include "tools/render/caption.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/point_normals.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
+namespace {
 
-const Rgb kGhostColour = srgb(0xc9d1da);
+constexpr std::array<const PictureKind*, 7> kKinds = {
+    &kPathPicture,   &kProfilePicture,    &kCloudPicture, &kCoveragePicture,
+    &kVoxelsPicture, &kCandidatesPicture, &kPlanPicture};
+
+}  // namespace
+
+void frame_structure_alone(RunSource& run, const PictureOptions&,
+                           std::vector<Vec3>& points_world_m) {
+  frame_structure(run, points_world_m);
+}
+
+void frame_map(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
+  const Vec3 beside_m = Vec3::Constant(run.record().scenario.planner.map.resolution_m);
+  for (const Vec3f& v : run.world().structure.vertices_m) {
+    const Box3 reach_m(v.cast<double>() - beside_m, v.cast<double>() + beside_m);
+    for (int i = 0; i < 8; ++i) {
+      points_world_m.push_back(reach_m.corner(static_cast<Box3::CornerType>(i)));
+    }
+  }
+}
+
+std::span<const PictureKind* const> picture_kinds() { return kKinds; }
+
+const PictureKind& picture_kind(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const PictureKind* kind : kKinds) {
+    if (kind->name == name) return *kind;
+    names.push_back(kind->name);
+  }
+  names.insert(names.end(), {"snapshots", "movie", "all"});
+  throw BadInput(fmt::format("--what {}: no such picture ({}there are: {})", name,
+                             did_you_mean(name, names), join(names)));
+}
+
+PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
+                                   PictureOptions options) {
+  if (kind.colour_range == nullptr || options.colour_range) return options;
+  const PictureOptions alone = options;
+  for (RunSource* const run : runs) {
+    try {
+      const std::array<double, 2> own = kind.colour_range(*run, alone);
+      const std::array<double, 2> all = options.colour_range.value_or(own);
+      options.colour_range = {std::min(all[0], own[0]), std::max(all[1], own[1])};
+    } catch (const BadInput&) {  // of what the run lacks; its picture will say so
+    }
+  }
+  return options;
+}
+
+PictureOptions with_shared_angles(const PictureKind& kind, std::span<RunSource* const> runs,
+                                  PictureOptions options, const RenderView& view) {
+  if (kind.second_angles != nullptr && runs.size() > 1) {
+    options.second_angles = kind.second_angles(runs, options, view);
+  }
+  return options;
+}
+
+bool has_words(const PictureOptions& options) {
+  return options.has_caption && options.width_px >= 320 && options.height_px >= 240;
+}
 
 double unit_px(const PictureOptions& options) {
   return options.letters * layout_unit_px(options.width_px, options.height_px);
@@ -38,74 +103,22 @@ std::string views_so_far(const RunRecord& record, std::size_t iteration) {
                      iteration);
 }
 
-void frame_structure(RunSource& run, std::vector<Vec3>& points_world_m) {
-  for (const Vec3f& v : run.world().structure.vertices_m) {
-    points_world_m.push_back(v.cast<double>());
-  }
+std::string words_on_iteration(const RunRecord& record, const PictureOptions& options) {
+  if (!options.iteration) return "";
+  return " after " + views_so_far(record, iteration_of(record, options, 0));
 }
 
-namespace {
-
-const Rgb kObstacleColour = srgb(0xb59a7a);
-const Rgb kTerrainColour = srgb(0xa9b39a);
-const Rgb kNoFlyColour = srgb(0xc8375d);
-
-void add_in_one_colour(const TriangleMesh& mesh, const Rgb& colour, float opacity,
-                       RenderScene& scene) {
-  if (mesh.faces.empty()) return;
-  SurfaceItem surface;
-  surface.mesh = mesh;
-  surface.vertex_colours.assign(mesh.vertices_m.size(), colour);
-  surface.opacity = opacity;
-  scene.surfaces.push_back(std::move(surface));
+std::span<const Vec3f> points_by(RunSource& run, const PictureOptions& options) {
+  const std::span<const Vec3f> all = run.cloud().points_world_m;
+  if (!options.iteration) return all;
+  return all.first(run.cloud().view_points[iteration_of(run.record(), options, 0)]);
 }
 
-}  // namespace
-
-void add_ground(RunSource& run, RenderScene& scene) {
-  if (has_flat_ground(run.record().scenario)) scene.ground = GroundItem{};
-  if (run.world().terrain.faces.empty()) return;
-  add_in_one_colour(run.world().terrain, kTerrainColour, 1.0F, scene);
-  scene.surfaces.back().casts_shadow = false;
-}
-
-std::vector<LegendItem> legend_of_surroundings(RunSource& run) {
-  const Scenario& scenario = run.record().scenario;
-  std::vector<LegendItem> legend;
-  if (!scenario.obstacles.empty()) legend.push_back({"obstacle", {kObstacleColour}});
-  if (!scenario.no_fly.empty()) legend.push_back({"no-fly box", {kNoFlyColour}});
-  return legend;
-}
-
-void add_structure(RunSource& run, RenderScene& scene) {
-  add_ground(run, scene);
-  if (run.world().structure.faces.empty()) return;
-  SurfaceItem surface;
-  surface.mesh = run.world().structure;
-  surface.is_painted = true;
-  scene.surfaces.push_back(std::move(surface));
-  add_surroundings(run, scene);
-}
-
-void add_surroundings(RunSource& run, RenderScene& scene) {
-  add_in_one_colour(run.world().obstacles, kObstacleColour, 1.0F, scene);
-  TriangleMesh boxes;
-  for (const NoFlyConfig& keep_out : run.record().scenario.no_fly) {
-    append(boxes, box_mesh(keep_out.box_m));
-  }
-  constexpr float kNoFlyOpacity = 0.3F;
-  add_in_one_colour(boxes, kNoFlyColour, kNoFlyOpacity, scene);
-}
-
-void paint_structure(RunSource& run, const RenderView& view, RenderScene& scene) {
-  const std::size_t faces = run.world().structure.faces.size();
-  if (faces > 0) scene.paint = paint_of_structure(run.scene(), faces, view, run.threads());
-}
-
-void add_ghost(RunSource& run, float opacity, RenderScene& scene) {
-  add_ground(run, scene);
-  add_in_one_colour(run.world().structure, kGhostColour, opacity, scene);
-  add_in_one_colour(run.world().obstacles, kObstacleColour, opacity, scene);
+DotsItem cloud_dots(std::span<const Vec3f> points_world_m, double leaf_m, const Rgb& colour) {
+  return {.points_m = {points_world_m.begin(), points_world_m.end()},
+          .normals = point_normals(points_world_m, 2.5 * leaf_m),
+          .colours = {colour},
+          .radius_m = static_cast<float>(0.75 * leaf_m)};
 }
 
 }  // namespace gnbv

@@ -1,134 +1,212 @@
-// One decision: the views that were sampled, why they were rejected or how they scored; and from
-// near what the chosen one looks at (Figures 2, 5 and 6 of the paper).
+// One decision: the views that were sampled, why they were rejected or how they scored, and what
+// the chosen one looks at (Figures 2, 5 and 6 of the paper).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
-#include "tools/render/candidate_legend.hpp"
-#include "tools/render/candidate_views.hpp"
-#include "tools/render/chosen_view_item.hpp"
-#include "tools/render/frontier_items.hpp"
-#include "tools/render/panel_layout.hpp"
-#include "tools/render/rejection_look.hpp"
-#include "tools/render/voxel_items.hpp"
+#include "sim/core/error.hpp"
+#include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/decision.hpp"
+#include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr float kUnknownVoxelsOpacity = 0.35F;
+using Mark = LegendItem::Mark;
 
-void add_pin(const ViewPose& view, double length_m, double radius_m, const Rgb& colour,
-             RenderScene& scene) {
-  scene.tubes.push_back({{view.p_world_m.cast<float>(), pin_end(view, length_m).cast<float>()},
-                         {colour},
-                         static_cast<float>(radius_m)});
+/// The decision that a picture is about: half way, unless another is asked for. Throws BadInput for
+/// the first view, which nothing chose.
+std::size_t decision_asked(const RunRecord& record, const PictureOptions& options) {
+  const std::size_t iteration = iteration_of(record, options, record.views.size() / 2);
+  if (iteration > 0) return iteration;
+  throw BadInput(
+      fmt::format("{}: view 1 (iteration 0) is where the mission starts: nothing chose it; "
+                  "--iteration asks for one from 1 on",
+                  record.folder.string()));
 }
 
-// "24 candidates around frontiers (0 valid), 80 of the grid (31 valid)"
+void frame_candidates(RunSource& run, const PictureOptions& options,
+                      std::vector<Vec3>& points_world_m) {
+  const RunRecord& record = run.record();
+  const std::size_t iteration = decision_asked(record, options);
+  frame_map(run, options, points_world_m);
+  for (const Candidate& candidate : run.decision(iteration).plan.candidates) {
+    // those beyond the bounds lie far around everything else
+    if (candidate.rejected == Rejection::out_of_bounds) continue;
+    points_world_m.push_back(candidate.view.p_world_m);
+  }
+  points_world_m.push_back(record.views[iteration - 1].decision.view.p_world_m);
+  points_world_m.push_back(record.views[iteration].decision.view.p_world_m);
+}
+
+/// What the candidates are worth that a picture from there shows: those chosen count the most, then
+/// those that were valid; those out of bounds lie anywhere.
+double worth_shown(const ReplayedDecision& decision, const RenderView& view) {
+  double worth = 0.0;
+  for (std::size_t i = 0; i < decision.plan.candidates.size(); ++i) {
+    const Candidate& candidate = decision.plan.candidates[i];
+    if (candidate.rejected == Rejection::out_of_bounds) continue;
+    if (!shows(view, decision.belief.grid, candidate.view.p_world_m, 0.0)) continue;
+    worth += decision.plan.is_chosen(i) ? 40.0 : candidate.rejected ? 1.0 : 4.0;
+  }
+  return worth;
+}
+
+/// Of eight directions around, the one that shows the most of the runs' candidates.
+ViewAngles best_angles(std::span<RunSource* const> runs, const PictureOptions& options) {
+  constexpr int kDirections = 8;
+  ViewAngles best;
+  double most = -1.0;
+  std::vector<Vec3> points_m;
+  for (RunSource* const run : runs) frame_candidates(*run, options, points_m);
+  for (int i = 0; i < kDirections; ++i) {
+    ViewAngles angles;
+    angles.azimuth_rad = wrap_angle_rad(angles.azimuth_rad + 2.0 * kPi * i / kDirections);
+    const RenderView view = frame_points(points_m, angles, 640, 480);
+    double worth = 0.0;
+    for (RunSource* const run : runs) {
+      worth += worth_shown(run->decision(decision_asked(run->record(), options)), view);
+    }
+    if (worth <= most) continue;
+    most = worth;
+    best = angles;
+  }
+  return best;
+}
+
+/// "24 candidates around frontiers (0 valid), 80 of the grid (31 valid)"
 std::string counts_by_sampler(const Plan& plan) {
-  struct Tally {
-    std::size_t all = 0;
-    std::size_t valid = 0;
-  };
-  std::map<Sampler, Tally> tallies;
+  std::map<Sampler, std::array<std::size_t, 2>> tallies;  // all, valid
   for (const Candidate& candidate : plan.candidates) {
-    Tally& tally = tallies[candidate.sampler];
-    ++tally.all;
-    tally.valid += candidate.rejected ? 0 : 1;
+    ++tallies[candidate.sampler][0];
+    tallies[candidate.sampler][1] += candidate.rejected ? 0 : 1;
   }
   std::string words;
   for (const auto& [sampler, tally] : tallies) {
     if (!traits_of(sampler).is_scored) continue;
-    words +=
-        fmt::format("{} {} ({} valid)",
-                    words.empty() ? counted(tally.all, "candidate") : ", " + grouped(tally.all),
-                    traits_of(sampler).words, grouped(tally.valid));
+    words += fmt::format("{} {} ({} valid)",
+                         words.empty() ? counted(tally[0], "candidate") : ", " + grouped(tally[0]),
+                         traits_of(sampler).words, grouped(tally[1]));
   }
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
 
-// A pin each, in their order: with the ball where it stands for those that are valid, small and at
-// its other end for those rejected, since at one place views may look in several directions.
-void add_candidates(const Plan& plan, const CandidateTally& all, double unit_m,
-                    RenderScene& scene) {
-  for (const Candidate& candidate : plan.candidates) {
-    if (candidate.rejected) {
-      const Rgb& colour = rejection_looks()[static_cast<std::size_t>(*candidate.rejected)].colour;
-      add_pin(candidate.view, kRejectedPin * unit_m, 1.4 * unit_m, colour, scene);
-      scene.balls.push_back(
-          {scene.tubes.back().points_m.back(), static_cast<float>(kRejectedBall * unit_m), colour});
-      continue;
-    }
-    const Rgb colour = colour_of_score(all, candidate.score.value);
-    add_pin(candidate.view, 19.0 * unit_m, 2.4 * unit_m, colour, scene);
-    scene.balls.push_back(
-        {candidate.view.p_world_m.cast<float>(), static_cast<float>(kValidBall * unit_m), colour});
-  }
+/// "0.871", "1,470"
+std::string in_three_digits(double value) {
+  return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : grouped(value, 0);
 }
 
-// The map, as pale as it can be; its cubes take that share of their voxels' edges. Whether unknown
-// ones can be seen from there.
-bool add_map(RunSource& run, const OccupancyGrid& grid, double share, const RenderView& view,
-             RenderScene& scene) {
-  add_ground(run, scene);
-  const std::vector<Rgb> grey = {kOccupiedVoxels};
-  const SortedVoxels voxels = sort_voxels(grid);
-  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, grey, share));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknownVoxels, kUnknownVoxelsOpacity));
-  return is_seen(scene.surfaces.back(), grid, view);
+/// A bar from the lowest utility to the highest; without one where all have one.
+LegendItem legend_of_valid(const ScoreRange& scores) {
+  const std::string begin =
+      fmt::format("valid: {}, utility {}", grouped(scores.valid), in_three_digits(scores.low));
+  if (scores.low == scores.high) return {begin, {score_colours().back()}, Mark::dot};
+  return {.label = in_three_digits(scores.high) + ", highest",
+          .colours = score_colours(),
+          .label_before = begin,
+          .label_middle = in_three_digits(0.5 * (scores.low + scores.high))};
+}
+
+/// What became of a decision's candidates, and what of them a picture shows.
+struct Tally {
+  std::array<std::size_t, kRejectionNames.size()> rejected{}, rejected_shown{};
+  std::size_t unseen = 0;  // hidden or outside the picture
+};
+
+Tally tally_of(const ReplayedDecision& decision, const RenderView& view, double unit_m) {
+  Tally tally;
+  for (const Candidate& candidate : decision.plan.candidates) {
+    const BallItem ball = ball_of(candidate, {}, unit_m);
+    const bool is_shown = shows(view, decision.belief.grid, ball.centre_m.cast<double>(),
+                                static_cast<double>(ball.radius_m));
+    tally.unseen += is_shown ? 0 : 1;
+    if (!candidate.rejected) continue;
+    const auto reason = static_cast<std::size_t>(*candidate.rejected);
+    ++tally.rejected[reason];
+    tally.rejected_shown[reason] += is_shown ? 1 : 0;
+  }
+  return tally;
+}
+
+/// A row of those rejected, of which each counts those in sight ("collision: 74 of 132"), one of
+/// what could be chosen and of the map, one of the chosen view. Of lines, balls and voxels nothing
+/// that the picture does not show.
+std::vector<LegendItem> legend_of(const ReplayedDecision& decision, const Tally& tally,
+                                  const RenderScene& scene, const RenderView& view) {
+  std::vector<LegendItem> legend;
+  for (const RejectionLook& look : rejection_looks()) {
+    const auto reason = static_cast<std::size_t>(look.rejection);
+    const std::size_t all = tally.rejected[reason];
+    const std::size_t shown = tally.rejected_shown[reason];
+    if (all == 0) continue;
+    const std::string count =
+        shown == all ? grouped(all) : fmt::format("{} of {}", grouped(shown), grouped(all));
+    legend.push_back({fmt::format("{}: {}", look.words, count), {look.rgb()}, Mark::dot});
+  }
+  if (!legend.empty()) {
+    legend.front().label_before = tally.unseen == 0 ? "rejected:" : "rejected, in sight of all:";
+  }
+  const auto add_seen = [&](const Look& look, Mark mark) {
+    if (shows_any(view, decision.belief.grid, scene, look.rgb()))
+      legend.push_back(entry(look, mark));
+  };
+  const std::size_t second = legend.size();
+  if (const ScoreRange scores = scores_of(decision.plan); scores.valid > 0) {
+    legend.push_back(legend_of_valid(scores));
+  }
+  add_seen(looks::kOccupied, Mark::square);
+  add_seen(looks::kUnknown, Mark::square);
+  add_seen(looks::kFrontier, Mark::square);
+  add_seen(looks::kLookedAt, Mark::square);
+  add_seen(looks::kFrontierLayer, Mark::line);
+  const std::size_t third = legend.size();
+  legend.push_back(entry(looks::kChosen, Mark::ring));
+  legend.push_back({"way there", {looks::kChosen.rgb()}, Mark::line});
+  legend.push_back(entry(looks::kViewBefore, Mark::ring));
+  legend.push_back({"its camera", {looks::kCamera.rgb()}, Mark::pyramid});
+  add_seen(looks::kRayFree, Mark::line);
+  add_seen(looks::kRayUnknown, Mark::line);
+  add_seen(looks::kRayHit, Mark::dot);
+  if (second < third) legend[second].begins_row = true;
+  legend[third].begins_row = true;
+  return legend;
 }
 
 Picture draw_candidates(RunSource& run, const PictureOptions& options, const RenderView& view) {
   const RunRecord& record = run.record();
   const std::size_t iteration = decision_asked(record, options);
   const ReplayedDecision& decision = run.decision(iteration);
-  const Plan& plan = decision.plan;
-  Picture picture{.panels = std::vector<Panel>(2)};
-  Panel& far = picture.panels[0];
-  Panel& near = picture.panels[1];
-  if (!options.camera) {
-    RenderScene chosen;
-    add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, view),
-                    chosen);
-    near.view = near_view(record, iteration, chosen, view);
+  const OccupancyGrid& grid = decision.belief.grid;
+  const double unit_m = layout_unit_m(view);
+  Picture picture{.panels = std::vector<Panel>(1)};
+  Panel& panel = picture.panels.front();
+  RenderScene& scene = panel.scene;
+  add_candidates(decision.plan, unit_m, scene);
+  add_ground(run, scene);
+  const std::vector<Rgb> pale = {looks::kOccupied.rgb()};
+  const SortedVoxels voxels = sort_voxels(grid);
+  scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, pale, 0.94));
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, looks::kUnknown.rgb(), 0.35F));
+  if (has_frontier_views(decision.plan)) {
+    add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, view, panel);
   }
-  const RenderView& from_near = near.view ? *near.view : view;
-  const std::array<PanelView, 2> panels = {
-      {{view, panel_unit_m(options, view)}, {from_near, panel_unit_m(options, from_near)}}};
-  const CandidateTally all = tally(plan, decision.belief.grid, panels);
-  bool is_unknown_seen = false;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    Panel& panel = picture.panels[i];
-    const auto& [seen_from, unit_m] = panels[i];
-    // from near, gaps would be black lines
-    is_unknown_seen |=
-        add_map(run, decision.belief.grid, &panel == &near ? 1.0 : 0.94, seen_from, panel.scene);
-    add_candidates(plan, all, unit_m, panel.scene);
-    if (has_frontier_views(plan))
-      add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, seen_from, panel);
-  }
-  // numbers show through everything, and from near nothing asks for them
-  if (!is_chosen_at_frontier(plan)) near.labels.clear();
+  add_chosen_view(record, run.world(), decision.belief, iteration, unit_m, scene);
   // farther, rays would smear their darkness over what they pass
-  near.scene.hollow_m = decision.belief.grid.geometry().resolution_m();
-  far.lines = near.lines = way_to_chosen(record, iteration);
-  add_chosen_view(record, run.world(), decision.belief, iteration, panel_unit_m(options, from_near),
-                  near.scene);
-  far.note = note_on(plan, all);
-  const double step_m = (record.views[iteration].decision.view.p_world_m -
-                         record.views[iteration - 1].decision.view.p_world_m)
-                            .norm();
-  near.note = step_m < 0.005 ? "the chosen one, a turn where the view before was"
-                             : fmt::format("the chosen one, {:.2g} m from the view before", step_m);
-  // views are counted from 1 where people look, as on the page
+  scene.hollow_m = grid.geometry().resolution_m();
+  panel.lines = way_to_chosen(record, iteration);
+  const Tally tally = tally_of(decision, view, unit_m);
   picture.detail =
       fmt::format("how view {} of {} (iteration {}) was chosen: from {}", grouped(iteration + 1),
-                  grouped(record.views.size()), iteration, counts_by_sampler(plan));
-  picture.legend =
-      legend_of(plan, all, picture.panels, {decision.belief.grid, panels}, is_unknown_seen);
+                  grouped(record.views.size()), iteration, counts_by_sampler(decision.plan));
+  if (tally.unseen > 0) {
+    picture.detail += fmt::format("; {} hidden or outside the picture", grouped(tally.unseen));
+  }
+  picture.legend = legend_of(decision, tally, scene, view);
   return picture;
 }
 
@@ -137,9 +215,8 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
 const PictureKind kCandidatesPicture = {
     .name = "candidates",
     .shows = "candidate views of one decision, and rays of the chosen one (Figs. 2, 5, 6)",
-    .panels = 2,
     .legend_rows = 3,
-    .best_angles = angles_to_candidates,
+    .best_angles = best_angles,
     .frame = frame_candidates,
     .draw = draw_candidates};
 

@@ -6,17 +6,11 @@
 
 #include "bench/score/voxel_set.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/render/point_normals.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
-
-const Rgb kProfileOnly = srgb(0xc99a6b);  // a hue that the amounts do not have
-
-void frame_cloud(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
-  frame_structure(run, points_world_m);
-}
 
 // Points of each point's voxel.
 std::vector<std::uint32_t> densities(std::span<const Vec3f> points_world_m, double voxel_m) {
@@ -45,11 +39,6 @@ std::vector<bool> are_of_profile_alone(std::span<const Vec3f> points_world_m, st
   return are_alone;
 }
 
-std::size_t points_of(RunSource& run, const PictureOptions& options) {
-  if (!options.iteration) return run.cloud().points_world_m.size();
-  return run.cloud().view_points[iteration_of(run.record(), options, 0)];
-}
-
 /// From 1 to what 95 % of the points stay under, in two digits: the few densest voxels would leave
 /// everything else in one colour.
 std::array<double, 2> range_of(std::vector<std::uint32_t> counts) {
@@ -61,40 +50,35 @@ std::array<double, 2> range_of(std::vector<std::uint32_t> counts) {
 }
 
 std::array<double, 2> density_range(RunSource& run, const PictureOptions& options) {
-  const auto points = std::span(run.cloud().points_world_m).first(points_of(run, options));
-  return range_of(densities(points, run.record().scenario.planner.map.resolution_m));
+  const double voxel_m = run.record().scenario.planner.map.resolution_m;
+  return range_of(densities(points_by(run, options), voxel_m));
 }
 
 Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderView&) {
   const RunRecord& record = run.record();
   const double voxel_m = record.scenario.planner.map.resolution_m;
-  const auto points = std::span(run.cloud().points_world_m).first(points_of(run, options));
-  DotsItem dots{.points_m = {points.begin(), points.end()},
-                .normals = point_normals(points, 2.5 * record.scenario.planner.cloud.leaf_m),
-                .colours = {},
-                .radius_m = static_cast<float>(0.75 * record.scenario.planner.cloud.leaf_m)};
+  const std::span<const Vec3f> points = points_by(run, options);
+  DotsItem dots = cloud_dots(points, record.scenario.planner.cloud.leaf_m, {});
+  dots.colours.clear();
   const std::vector<std::uint32_t> counts = densities(points, voxel_m);
   const double top = options.colour_range.value_or(range_of(counts))[1];
   const std::vector<bool> are_alone =
       are_of_profile_alone(points, run.cloud().profile_points, voxel_m);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const Rgb colour = amount_ramp((counts[i] - 1.0) / std::max(1.0, top - 1.0));
-    dots.colours.push_back(are_alone[i] ? kProfileOnly : colour);
+    dots.colours.push_back(are_alone[i] ? looks::kProfilePoints.rgb() : colour);
   }
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
   add_ground(run, scene);
   scene.dots.push_back(std::move(dots));
   scene.shading = kDataShading;
-  picture.detail = counted(points.size(), "point");
-  if (options.iteration) {
-    picture.detail += " after " + views_so_far(record, iteration_of(record, options, 0));
-  }
+  picture.detail = counted(points.size(), "point") + words_on_iteration(record, options);
   const auto alone = static_cast<std::size_t>(std::count(are_alone.begin(), are_alone.end(), true));
   if (alone > 0) {
-    picture.legend.push_back({fmt::format("seen by the profile alone: {}", counted(alone, "point")),
-                              {kProfileOnly},
-                              LegendItem::Mark::dot});
+    LegendItem& item =
+        picture.legend.emplace_back(entry(looks::kProfilePoints, LegendItem::Mark::dot));
+    item.label += ": " + counted(alone, "point");
   }
   picture.legend.push_back(
       {.label = fmt::format("{:.0f} or more", top),
@@ -108,7 +92,6 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
 
 const PictureKind kCloudPicture = {.name = "cloud",
                                    .shows = "point cloud coloured by density",
-                                   .frame = frame_cloud,
                                    .colour_range = density_range,
                                    .draw = draw_cloud};
 

@@ -5,32 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/render/voxel_items.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
 
-const Rgb kCovered = srgb(0xa9c3d6);
-const Rgb kMissed = srgb(0xd5420a);
 constexpr std::size_t kMostAsked = 2000;  // of the missed voxels, when a direction is judged
-
-void frame_coverage(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
-  frame_structure(run, points_world_m);
-}
-
-/// Points of the cloud that a picture is about.
-std::span<const Vec3f> points_seen(RunSource& run, const PictureOptions& options) {
-  const std::span<const Vec3f> all = run.cloud().points_world_m;
-  if (!options.iteration) return all;
-  return all.first(run.cloud().view_points[iteration_of(run.record(), options, 0)]);
-}
 
 struct Judged {
   std::vector<bool> is_missed = {};        // of all voxels
@@ -39,7 +26,7 @@ struct Judged {
 
 Judged judge(RunSource& run, const PictureOptions& options) {
   const SurfaceReference& reference = run.reference();
-  const VoxelSet seen = voxels_of(points_seen(run, options), kCoverageSizes_m.front());
+  const VoxelSet seen = voxels_of(points_by(run, options), kCoverageSizes_m.front());
   Judged judged;
   const VoxelSet& surface = reference.outside.front();
   for (std::size_t i = 0; i < surface.size(); ++i) {
@@ -58,7 +45,7 @@ SurfaceItem faces_of(const VoxelSet& surface, const std::vector<bool>& is_missed
     count[0] += is_missed[i] ? 1.0F : 0.0F;
     count[1] += 1.0F;
   }
-  const std::array<Rgb, 2> ends = {kCovered, kMissed};
+  const std::array<Rgb, 2> ends = {looks::kFound.rgb(), looks::kMissed.rgb()};
   VoxelSet voxels;
   std::vector<Rgb> colours;
   for (const auto& [code, count] : counts) {
@@ -77,92 +64,57 @@ int factor_of(const RenderView& view) {
 
 /// Which of the points something hides in those directions (n).
 std::vector<std::uint8_t> are_hidden(const RayScene& scene, std::span<const Vec3f> points_world_m,
-                                     std::span<const Vec3f> directions, double size_m) {
+                                     std::span<const Vec3f> directions) {
+  constexpr auto kBeside_m = static_cast<float>(0.2 * kCoverageSizes_m.front());
   std::vector<std::uint8_t> is_hidden(points_world_m.size());
-  scene.find_blocked(kMeshParts, points_world_m, directions, static_cast<float>(0.2 * size_m),
-                     kEndless, is_hidden);
+  scene.find_blocked(kMeshParts, points_world_m, directions, kBeside_m, kEndless, is_hidden);
   return is_hidden;
 }
 
-Vec3 to_camera(const ViewAngles& angles) {
-  const double level = std::cos(angles.elevation_rad);
-  return {level * std::cos(angles.azimuth_rad), level * std::sin(angles.azimuth_rad),
-          std::sin(angles.elevation_rad)};
-}
-
-/// Eight directions around, from above, from below, steeply from above, and level.
-std::vector<ViewAngles> directions() {
+/// Of eight directions around, from above, from below, steeply from above, and level, the first
+/// that shows the most of what the runs miss together, but none that looks as the first panel does.
+std::optional<ViewAngles> angles_to_most(std::span<RunSource* const> runs,
+                                         const PictureOptions& options, const RenderView& first) {
+  constexpr double kOtherSide_rad = deg_to_rad(50.0);
+  const Vec3 shown = -first.T_world_camera.linear().col(2);
   std::vector<ViewAngles> all;
   for (const double elevation_deg : {28.0, -25.0, 60.0, 5.0}) {
     for (int i = 0; i < 8; ++i) {
-      all.push_back({deg_to_rad(60.0 - 45.0 * i), deg_to_rad(elevation_deg)});
+      const ViewAngles angles{deg_to_rad(60.0 - 45.0 * i), deg_to_rad(elevation_deg)};
+      if (to_camera(angles).dot(shown) <= std::cos(kOtherSide_rad)) all.push_back(angles);
     }
   }
-  return all;
-}
-
-/// Of each direction: the share of the missed points that it shows.
-std::vector<double> shares_shown(RunSource& run, const std::vector<Vec3f>& missed_world_m) {
-  std::vector<Vec3f> asked;
-  const std::size_t step = 1 + missed_world_m.size() / kMostAsked;
-  for (std::size_t i = 0; i < missed_world_m.size(); i += step) asked.push_back(missed_world_m[i]);
-  std::vector<double> shares;
-  for (const ViewAngles& angles : directions()) {
-    const std::vector<Vec3f> directions(asked.size(), to_camera(angles).cast<float>());
-    const std::vector<std::uint8_t> is_hidden =
-        are_hidden(run.scene(), asked, directions, kCoverageSizes_m.front());
-    const auto open = std::count(is_hidden.begin(), is_hidden.end(), 0);
-    shares.push_back(static_cast<double>(open) /
-                     static_cast<double>(std::max<std::size_t>(1, asked.size())));
-  }
-  return shares;
-}
-
-/// The first direction that shows the most, but none that looks as the first panel does.
-ViewAngles angles_to_most(std::span<const double> shares, const RenderView& first) {
-  constexpr double kOtherSide_rad = deg_to_rad(50.0);
-  const Vec3 shown = -first.T_world_camera.linear().col(2);
-  ViewAngles best{deg_to_rad(60.0), deg_to_rad(28.0)};  // with nothing missed: the other side
-  double most = 0.0;
-  const std::vector<ViewAngles> all = directions();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (to_camera(all[i]).dot(shown) > std::cos(kOtherSide_rad) || shares[i] <= most) continue;
-    most = shares[i];
-    best = all[i];
-  }
-  return best;
-}
-
-/// The direction that shows the most of what the runs miss together.
-std::optional<ViewAngles> angles_for_all(std::span<RunSource* const> runs,
-                                         const PictureOptions& options, const RenderView& view) {
-  std::vector<double> sums(directions().size(), 0.0);
+  std::vector<double> shares(all.size(), 0.0);  // of what is missed, summed over the runs
   for (RunSource* const run : runs) {
     try {
-      const std::vector<double> own = shares_shown(*run, judge(*run, options).missed_world_m);
-      std::transform(own.begin(), own.end(), sums.begin(), sums.begin(), std::plus<>());
+      const std::vector<Vec3f> missed_m = judge(*run, options).missed_world_m;
+      const std::size_t step = 1 + missed_m.size() / kMostAsked;
+      std::vector<Vec3f> asked_m;
+      for (std::size_t i = 0; i < missed_m.size(); i += step) asked_m.push_back(missed_m[i]);
+      for (std::size_t i = 0; i < all.size() && !asked_m.empty(); ++i) {
+        const std::vector<Vec3f> directions(asked_m.size(), to_camera(all[i]).cast<float>());
+        const std::vector<std::uint8_t> is_hidden = are_hidden(run->scene(), asked_m, directions);
+        const auto open = std::count(is_hidden.begin(), is_hidden.end(), 0);
+        shares[i] += static_cast<double>(open) / static_cast<double>(asked_m.size());
+      }
     } catch (const BadInput&) {  // of what the run lacks; its picture will say so
     }
-    run->forget();
+    if (runs.size() > 1) run->forget();
   }
-  return angles_to_most(sums, view);
+  const auto most = std::max_element(shares.begin(), shares.end());
+  if (most == shares.end() || *most == 0.0) return ViewAngles{deg_to_rad(60.0), deg_to_rad(28.0)};
+  return all[static_cast<std::size_t>(most - shares.begin())];
 }
 
-/// Where a camera stands as seen by who looks along the first panel: "the right", "below, behind".
-std::string side_of(const ViewAngles& angles, const RenderView& first) {
-  const Vec3 shown = -first.T_world_camera.linear().col(2);
-  const double turn_deg =
-      rad_to_deg(wrap_angle_rad(angles.azimuth_rad - std::atan2(shown.y(), shown.x())));
-  const std::string_view hand = turn_deg > 0.0 ? "the right" : "the left";
-  const double size_deg = std::abs(turn_deg);
-  std::string side = size_deg < 22.5    ? "the same side"
-                     : size_deg < 112.5 ? std::string(hand)
-                     : size_deg < 157.5 ? fmt::format("behind on {}", hand)
-                                        : "behind";
-  return (angles.elevation_rad < 0.0                ? "below, "
-          : angles.elevation_rad > deg_to_rad(45.0) ? "above, "
-                                                    : "") +
-         side;
+/// Where a camera stands: "the north-east, below".
+std::string side_of(const ViewAngles& angles) {
+  constexpr std::array<std::string_view, 8> kSides = {"east", "north-east", "north", "north-west",
+                                                      "west", "south-west", "south", "south-east"};
+  const auto side = static_cast<std::size_t>(std::lround(angles.azimuth_rad / (0.25 * kPi)) + 16);
+  const char* const height = angles.elevation_rad < 0.0                ? ", below"
+                             : angles.elevation_rad > deg_to_rad(45.0) ? ", above"
+                                                                       : "";
+  return fmt::format("the {}{}", kSides[side % 8], height);
 }
 
 /// Which of the points a picture shows (n).
@@ -171,31 +123,12 @@ std::vector<bool> in_sight(RunSource& run, std::span<const Vec3f> points_world_m
   const Vec3f eye = view.T_world_camera.translation().cast<float>();
   std::vector<Vec3f> directions;
   for (const Vec3f& p_m : points_world_m) directions.push_back((eye - p_m).normalized());
-  const std::vector<std::uint8_t> is_hidden =
-      are_hidden(run.scene(), points_world_m, directions, kCoverageSizes_m.front());
+  const std::vector<std::uint8_t> is_hidden = are_hidden(run.scene(), points_world_m, directions);
   std::vector<bool> is_shown;
   for (std::size_t i = 0; i < points_world_m.size(); ++i) {
     is_shown.push_back(is_hidden[i] == 0 && is_within(view, points_world_m[i].cast<double>()));
   }
   return is_shown;
-}
-
-/// What each panel shows of the points, and what neither does.
-struct InSight {
-  std::size_t first = 0, second = 0, neither = 0;
-};
-
-InSight count_in_sight(RunSource& run, std::span<const Vec3f> points_world_m,
-                       const RenderView& first, const RenderView& second) {
-  const std::vector<bool> in_first = in_sight(run, points_world_m, first);
-  const std::vector<bool> in_second = in_sight(run, points_world_m, second);
-  InSight counts;
-  for (std::size_t i = 0; i < points_world_m.size(); ++i) {
-    counts.first += in_first[i] ? 1 : 0;
-    counts.second += in_second[i] ? 1 : 0;
-    counts.neither += in_first[i] || in_second[i] ? 0 : 1;
-  }
-  return counts;
 }
 
 RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView& view) {
@@ -212,9 +145,9 @@ Picture draw_coverage(RunSource& run, const PictureOptions& options, const Rende
   const double size_m = kCoverageSizes_m.front();
   const Judged judged = judge(run, options);
   const std::size_t missed = judged.missed_world_m.size();
-  const ViewAngles other = options.second_angles
-                               ? *options.second_angles
-                               : angles_to_most(shares_shown(run, judged.missed_world_m), view);
+  RunSource* const alone[] = {&run};
+  const ViewAngles other =
+      options.second_angles ? *options.second_angles : *angles_to_most(alone, options, view);
   const int factor = factor_of(view);
   Picture picture{.panels = std::vector<Panel>(2)};
   RenderScene& scene = picture.panels[0].scene;
@@ -223,23 +156,26 @@ Picture draw_coverage(RunSource& run, const PictureOptions& options, const Rende
   scene.shading = kDataShading;
   picture.panels[1].scene = scene;
   picture.panels[1].view = other_view(run, other, view);
-  const InSight counts = count_in_sight(run, judged.missed_world_m, view, *picture.panels[1].view);
-  picture.panels[0].note = fmt::format("{} missed, {} of them in sight", counted(missed, "voxel"),
-                                       grouped(counts.first));
-  picture.panels[1].note = fmt::format("{} in sight from {}; {} in neither", grouped(counts.second),
-                                       side_of(other, view), grouped(counts.neither));
+  const std::vector<bool> in_first = in_sight(run, judged.missed_world_m, view);
+  const std::vector<bool> in_second = in_sight(run, judged.missed_world_m, *picture.panels[1].view);
+  std::size_t neither = 0;
+  for (std::size_t i = 0; i < missed; ++i) neither += in_first[i] || in_second[i] ? 0 : 1;
+  const auto count = [](const std::vector<bool>& is_seen) {
+    return grouped(static_cast<std::size_t>(std::count(is_seen.begin(), is_seen.end(), true)));
+  };
+  picture.panels[0].note =
+      fmt::format("{} missed, {} of them in sight", counted(missed, "voxel"), count(in_first));
+  picture.panels[1].note = fmt::format("{} in sight from {}; {} in neither", count(in_second),
+                                       side_of(other), grouped(neither));
   const double share = static_cast<double>(surface.size() - missed) /
                        static_cast<double>(std::max<std::size_t>(1, surface.size()));
   picture.detail = fmt::format("{:.1f} % of {} surface voxels of {} m covered", 100.0 * share,
                                grouped(surface.size()), size_m);
-  if (options.iteration) {
-    picture.detail +=
-        " after " + views_so_far(run.record(), iteration_of(run.record(), options, 0));
-  }
+  picture.detail += words_on_iteration(run.record(), options);
   if (factor > 1) {
     picture.detail += fmt::format("; drawn in voxels of {:.2f} m, colours mixed", factor * size_m);
   }
-  picture.legend = {{"covered", {kCovered}}, {"missed", {kMissed}}};
+  picture.legend = {entry(looks::kFound), entry(looks::kMissed)};
   return picture;
 }
 
@@ -249,8 +185,7 @@ const PictureKind kCoveragePicture = {
     .name = "coverage",
     .shows = "true surface: covered by the cloud, or missed; from two sides",
     .panels = 2,
-    .frame = frame_coverage,
-    .second_angles = angles_for_all,
+    .second_angles = angles_to_most,
     .draw = draw_coverage};
 
 }  // namespace gnbv

@@ -1,8 +1,9 @@
 // The structure with the flown path, as Figures 8 and 10 of the paper show it.
 #include <fmt/format.h>
 
-#include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
+#include "tools/scene/flight.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
@@ -23,25 +24,11 @@ void add_ends(const RunRecord& record, Panel& panel) {
   if (record.views.empty()) return;
   const auto mark = [&](const ViewRecord& view, const Rgb& colour, const char* word) {
     const Vec3& p_m = view.decision.view.p_world_m;
-    panel.lines.push_back({p_m, p_m, to_rgb8(colour), 13.0});
+    panel.lines.push_back({p_m, p_m, colour, 13.0});
     panel.labels.push_back({p_m, word});
   };
   mark(record.views.front(), path_ramp(0.0), "start");
   if (record.views.size() > 1) mark(record.views.back(), path_ramp(1.0), "end");
-}
-
-/// The structure as the cameras see it; or what was made of the run's cloud (Fig. 8).
-void add_what_is_there(RunSource& run, const PictureOptions& options, const RenderView& view,
-                       RenderScene& scene) {
-  if (!options.surface) {
-    add_structure(run, scene);
-    paint_structure(run, view, scene);
-    return;
-  }
-  constexpr double kPiece_px = 2.0;
-  add_ground(run, scene);
-  scene.surfaces.push_back(options.surface(run, kPiece_px / px_per_m_at_focus(view)));
-  add_surroundings(run, scene);
 }
 
 Picture draw_path(RunSource& run, const PictureOptions& options, const RenderView& view) {
@@ -49,13 +36,20 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   Picture picture{.panels = std::vector<Panel>(1), .detail = run_detail(record)};
   if (options.surface) picture.detail += ", around the surface made of it";
   RenderScene& scene = picture.panels.front().scene;
-  add_what_is_there(run, options, view, scene);
+  constexpr double kPiece_px = 2.0;
+  if (options.surface) {  // what was made of the run's cloud (Fig. 8)
+    add_ground(run, scene);
+    scene.surfaces.push_back(options.surface(run, kPiece_px / px_per_m_at_focus(view)));
+    add_surroundings(run, scene);
+  } else {
+    add_structure(run, view, scene);
+  }
   const FlightLook look{.unit_m = layout_unit_m(view), .has_profile = options.has_profile};
   add_flight(record, look, scene);
-  add_views(record, record.views.size(), options.every, look, scene);
+  add_views(record, options.every, look, scene);
   add_ends(record, picture.panels.front());
   if (record.views_begin_s && options.has_profile) {
-    picture.legend.push_back({"profile", {kProfileColour}, LegendItem::Mark::line});
+    picture.legend.push_back(entry(looks::kProfile, LegendItem::Mark::line));
   }
   for (const LegendItem& item : legend_of_surroundings(run)) picture.legend.push_back(item);
   const std::size_t step = pyramid_step(record.views.size(), options.every);
@@ -71,7 +65,6 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
 
 const PictureKind kPathPicture = {.name = "path",
                                   .shows = "structure, flown path and views (Figs. 8, 10)",
-                                  .words_width = 760.0,
                                   .frame = frame_path,
                                   .draw = draw_path};
 

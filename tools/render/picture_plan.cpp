@@ -8,17 +8,14 @@
 #include <numeric>
 
 #include "sim/core/error.hpp"
-#include "tools/render/flight_items.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/render/point_normals.hpp"
+#include "tools/run/words.hpp"
+#include "tools/scene/flight.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
 
-const Rgb kBelieved = srgb(0xd5dae1);
-const Rgb kFlown = srgb(0x2f3640);
-const Rgb kSoon = srgb(0xd5420a);
-const Rgb kLater = srgb(0xeaa27f);
 constexpr std::size_t kSoonViews = 5;
 
 std::size_t iteration_left(const RunRecord& record, const PictureOptions& options) {
@@ -28,8 +25,10 @@ std::size_t iteration_left(const RunRecord& record, const PictureOptions& option
 StandingPlan plan_after(RunSource& run, std::size_t iteration) {
   const auto standing = standing_plan(run.plans(), run.record(), iteration);
   if (standing) return *standing;
-  throw BadInput(fmt::format("{}: made no plan by view {}: the mission ended there",
-                             run.record().folder.string(), iteration));
+  throw BadInput(
+      fmt::format("{}: made no plan by view {} (iteration {}): the mission "
+                  "ended there",
+                  run.record().folder.string(), iteration + 1, iteration));
 }
 
 void frame_plan(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {
@@ -39,16 +38,6 @@ void frame_plan(RunSource& run, const PictureOptions& options, std::vector<Vec3>
     points_world_m.push_back(view.decision.view.p_world_m);
   }
   for (const ViewPose& view : standing.views()) points_world_m.push_back(view.p_world_m);
-}
-
-void add_seen(RunSource& run, std::size_t iteration, RenderScene& scene) {
-  const RunCloud& cloud = run.cloud();
-  const double leaf_m = run.record().scenario.planner.cloud.leaf_m;
-  const auto points = std::span(cloud.points_world_m).first(cloud.view_points[iteration]);
-  scene.dots.push_back({.points_m = {points.begin(), points.end()},
-                        .normals = point_normals(points, 2.5 * leaf_m),
-                        .colours = {kBelieved},
-                        .radius_m = static_cast<float>(0.75 * leaf_m)});
 }
 
 /// What most cubes bring less than: the few heaviest would leave all others in one colour.
@@ -72,44 +61,25 @@ void add_cubes(const TourPlan& plan, double top, double unit_m, RenderScene& sce
   if (!plan.cubes.empty()) scene.surfaces.push_back(std::move(all));
 }
 
-void add_flown(const RunRecord& record, std::size_t iteration, double unit_m, RenderScene& scene) {
-  std::vector<Vec3> path_m;
-  for (const TrajectorySample& sample : record.path) {
-    if (sample.time_s > record.views[iteration].time_s) break;
-    if (sample.time_s < record.views.front().time_s) continue;
-    path_m.push_back(sample.T_world_body.translation());
-  }
-  const Vec3& here_m = record.views[iteration].decision.view.p_world_m;
-  if (path_m.size() > 1) scene.tubes.push_back(path_tube(path_m, unit_m, kFlown));
-  scene.balls.push_back({here_m.cast<float>(), static_cast<float>(6.0 * unit_m), kFlown});
-}
-
 /// The line through the views: the first of them strong, with what their cameras will see.
 void add_tour(const RunRecord& record, const Vec3& here_m, std::span<const ViewPose> views,
               int every, double unit_m, RenderScene& scene) {
   std::vector<Vec3> soon_m = {here_m};
   std::vector<Vec3> later_m;
-  const std::size_t step = every > 0 ? static_cast<std::size_t>(every) : 1 + views.size() / 40;
+  const std::size_t step = pyramid_step(views.size(), every);
+  const Rgb colour = looks::kPlan.rgb();
   for (std::size_t i = 0; i < views.size(); ++i) {
     const bool is_soon = i < kSoonViews;
     (is_soon ? soon_m : later_m).push_back(views[i].p_world_m);
-    const Rgb& colour = is_soon ? kSoon : kLater;
-    scene.balls.push_back({views[i].p_world_m.cast<float>(),
-                           static_cast<float>((is_soon ? 3.6 : 2.2) * unit_m), colour});
-    if (!is_soon && i % step != 0) continue;
-    for (const CameraConfig& camera : record.scenario.cameras) {
-      FrustumItem frustum = frustum_of(camera, T_world_body(views[i]), views[i].gimbal_pitch_rad,
-                                       (is_soon ? 34.0 : 16.0) * unit_m, colour);
-      frustum.edge_radius_m = static_cast<float>((is_soon ? 0.9 : 0.5) * unit_m);
-      frustum.face_opacity = is_soon ? 0.25F : 0.0F;
-      scene.frusta.push_back(frustum);
-    }
+    const ViewSize soon{3.6 * unit_m, 34.0 * unit_m, 0.9 * unit_m, 0.25F};
+    const ViewSize later{2.2 * unit_m, i % step == 0 ? 16.0 * unit_m : 0.0, 0.5 * unit_m};
+    add_view(record.scenario.cameras, views[i], is_soon ? soon : later, colour, scene);
   }
   if (!later_m.empty()) {
     later_m.insert(later_m.begin(), soon_m.back());
-    scene.tubes.push_back(path_tube(later_m, 0.6 * unit_m, kLater));
+    scene.tubes.push_back(path_tube(later_m, 0.5 * unit_m, colour));
   }
-  if (soon_m.size() > 1) scene.tubes.push_back(path_tube(soon_m, 1.1 * unit_m, kSoon));
+  if (soon_m.size() > 1) scene.tubes.push_back(path_tube(soon_m, 1.3 * unit_m, colour));
 }
 
 /// "312 voxels to be had, 77 % frontier" of the source that has most.
@@ -135,10 +105,11 @@ std::string plan_detail(const RunRecord& record, const StandingPlan& standing,
     at_m = view.p_world_m;
   }
   const std::size_t count = standing.views().size();
-  const std::string to_go =
-      count == 0 ? "the tour is over"
-                 : fmt::format("{} view{}, {:.1f} m to go", count, count == 1 ? "" : "s", metres);
-  return fmt::format("after view {}: {}; {}", iteration, to_go, prospects_of(standing.made->plan));
+  const std::string to_go = count == 0
+                                ? "the tour is over"
+                                : fmt::format("{}, {:.1f} m to go", counted(count, "view"), metres);
+  return fmt::format("after {}: {}; {}", views_so_far(record, iteration), to_go,
+                     prospects_of(standing.made->plan));
 }
 
 Picture draw_plan(RunSource& run, const PictureOptions& options, const RenderView& view) {
@@ -151,23 +122,33 @@ Picture draw_plan(RunSource& run, const PictureOptions& options, const RenderVie
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
   add_ground(run, scene);
-  add_seen(run, iteration, scene);
+  const auto seen = std::span(run.cloud().points_world_m).first(run.cloud().view_points[iteration]);
+  scene.dots.push_back(
+      cloud_dots(seen, record.scenario.planner.cloud.leaf_m, looks::kStructure.rgb()));
   add_cubes(plan, top, unit_m, scene);
-  add_flown(record, iteration, unit_m, scene);
-  add_tour(record, record.views[iteration].decision.view.p_world_m, standing.views(), options.every,
-           unit_m, scene);
+  add_flight(record,
+             {.unit_m = unit_m,
+              .has_profile = false,
+              .until_s = record.views[iteration].time_s,
+              .thickness = 0.9},
+             scene);
+  const Vec3& here_m = record.views[iteration].decision.view.p_world_m;
+  scene.balls.push_back(
+      {here_m.cast<float>(), static_cast<float>(6.0 * unit_m), looks::kHull.rgb()});
+  add_tour(record, here_m, standing.views(), options.every, unit_m, scene);
   picture.detail = plan_detail(record, standing, iteration);
-  picture.legend = {{"flown", {kFlown}, LegendItem::Mark::line}};
+  picture.legend = {
+      {.label = "last view", .colours = path_colours(), .label_before = "flown, from the first"},
+      entry(looks::kHull, LegendItem::Mark::dot)};
   if (!standing.views().empty()) {
-    picture.legend.push_back({"next views", {kSoon}, LegendItem::Mark::line});
-  }
-  if (standing.views().size() > kSoonViews) {
-    picture.legend.push_back({"later views", {kLater}, LegendItem::Mark::line});
+    picture.legend.push_back(entry(looks::kPlan, LegendItem::Mark::line));
+    picture.legend.back().label +=
+        fmt::format(", the next {} thick", std::min(kSoonViews, standing.views().size()));
   }
   if (!plan.cubes.empty()) {
     picture.legend.push_back(
         {.label = fmt::format("{:.0f} or more voxels to be had in {} m, when view {} was planned",
-                              top, plan.cube_m, standing.made->iteration),
+                              top, plan.cube_m, standing.made->iteration + 1),
          .colours = amount_colours(),
          .label_before = "0",
          .label_middle = fmt::format("{:.3g}", 0.5 * top)});

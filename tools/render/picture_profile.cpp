@@ -4,18 +4,13 @@
 
 #include <algorithm>
 
-#include "tools/render/caption.hpp"
-#include "tools/render/flight_items.hpp"
 #include "tools/render/panel_layout.hpp"
-#include "tools/render/point_normals.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/flight.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
-
-const Rgb kPoints = srgb(0x0b6fa8);
-const Rgb kProfilePath = srgb(0xd5420a);
-const Rgb kWorkspace = srgb(0x7b8896);
 
 void frame_profile(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
@@ -38,8 +33,9 @@ void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
       const auto corner = [&](int k) {
         return Vec3f(box_m.corner(static_cast<Box3::CornerType>(k)).cast<float>());
       };
-      scene.tubes.push_back(
-          {{corner(i), corner(i | bit)}, {kWorkspace}, static_cast<float>(1.0 * unit_m)});
+      scene.tubes.push_back({{corner(i), corner(i | bit)},
+                             {looks::kWorkspace.rgb()},
+                             static_cast<float>(1.0 * unit_m)});
     }
   }
 }
@@ -50,20 +46,20 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
   RenderScene& scene = panel.scene;
   scene.shading = kDataShading;
   add_ghost(run, 0.6F, scene);
-  scene.dots.push_back({.points_m = stage.points_world_m,
-                        .normals = point_normals(stage.points_world_m, 2.5 * leaf_m),
-                        .colours = {kPoints},
-                        .radius_m = static_cast<float>(std::max(0.45 * leaf_m, 1.0 * unit_m))});
-  scene.tubes.push_back(path_tube(stage.path_world_m, 1.5 * unit_m, kProfilePath));
+  DotsItem& dots =
+      scene.dots.emplace_back(cloud_dots(stage.points_world_m, leaf_m, looks::kSeen.rgb()));
+  dots.radius_m = static_cast<float>(std::max(0.45 * leaf_m, 1.0 * unit_m));
+  scene.tubes.push_back(path_tube(stage.path_world_m, 1.5 * unit_m, looks::kProfile.rgb()));
   add_box(run.record().scenario.workspace_m, unit_m, scene);
   if (!stage.path_world_m.empty()) {
     const Vec3& start_m = stage.path_world_m.front();
-    panel.labels.push_back({start_m, "S", kInk});
+    panel.labels.push_back({start_m, "S", looks::kViewBefore.rgb()});
   }
   for (std::size_t i = 0; i < stage.waypoints_world_m.size(); ++i) {
     const Vec3& p_m = stage.waypoints_world_m[i];
-    scene.balls.push_back({p_m.cast<float>(), static_cast<float>(4.5 * unit_m), kProfilePath});
-    panel.labels.push_back({p_m, fmt::format("{}", i + 1), to_rgb8(kProfilePath)});
+    scene.balls.push_back(
+        {p_m.cast<float>(), static_cast<float>(4.5 * unit_m), looks::kProfile.rgb()});
+    panel.labels.push_back({p_m, fmt::format("{}", i + 1), looks::kProfile.rgb()});
   }
   panel.note = fmt::format("{}: {}", counted(stage.waypoints, "waypoint"),
                            counted(stage.points_world_m.size(), "point"));
@@ -74,18 +70,18 @@ Picture draw_profile(RunSource& run, const PictureOptions& options, const Render
   const std::vector<ProfileStage>& stages = run.profile();
   Picture picture;
   for (const ProfileStage& stage : stages) {
-    picture.panels.push_back(panel_of(run, stage, panel_unit_m(options, view)));
+    picture.panels.push_back(
+        panel_of(run, stage, 0.7 * unit_px(options) / px_per_m_at_focus(view)));
   }
   const double leaf_m = run.record().scenario.planner.cloud.profile_leaf_m;
   picture.detail =
       fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
                   run.record().profile_end_s.value_or(0.0));
-  picture.legend = {{"flown from S, waypoints numbered", {kProfilePath}, LegendItem::Mark::line},
-                    {"workspace", {kWorkspace}, LegendItem::Mark::line},
-                    {"structure", {kGhostColour}},
-                    {fmt::format("LIDAR points, thinned to one in {} m", leaf_m),
-                     {kPoints},
-                     LegendItem::Mark::dot}};
+  picture.legend = {entry(looks::kProfile, LegendItem::Mark::line),
+                    entry(looks::kWorkspace, LegendItem::Mark::line), entry(looks::kStructure),
+                    entry(looks::kSeen, LegendItem::Mark::dot)};
+  picture.legend.front().label += " from S, waypoints numbered";
+  picture.legend.back().label = fmt::format("LIDAR points, thinned to one in {} m", leaf_m);
   return picture;
 }
 
@@ -95,9 +91,7 @@ const PictureKind kProfilePicture = {.name = "profile",
                                      .shows = "profile after 1, 3 and all waypoints (Fig. 4)",
                                      .panels = 3,
                                      // three in a row are high: seen from above, they are filled
-                                     .angles = {deg_to_rad(-120.0), deg_to_rad(45.0)},
-                                     // to 30 degrees off the west instead of the south
-                                     .turn_rad = deg_to_rad(-30.0),
+                                     .angles = {deg_to_rad(-150.0), deg_to_rad(45.0)},
                                      .frame = frame_profile,
                                      .draw = draw_profile};
 

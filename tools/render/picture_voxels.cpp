@@ -4,42 +4,17 @@
 #include <algorithm>
 
 #include "tools/render/picture.hpp"
-#include "tools/render/voxel_items.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
-
-const Rgb kPredicted = srgb(0xd5309c);
-const Rgb kUnknown = srgb(0xffdf8a);  // a hue that neither ground nor heights have
-
-void frame_voxels(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
-  frame_structure(run, points_world_m);
-}
 
 /// Heights of the structure: runs of one structure have them in common.
 std::array<double, 2> height_range(RunSource& run, const PictureOptions&) {
   const Box3 box_m = bounds_m(run.world().structure);
   return {std::max(0.0, box_m.min().z()), box_m.max().z()};
-}
-
-/// "1,234 voxels of 0.2 m occupied, 5 predicted, none of these in sight"
-std::string counts_of(const SortedVoxels& voxels, double resolution_m, bool is_predicted_seen) {
-  const std::string words =
-      fmt::format("{} of {} m occupied", counted(voxels.occupied.size(), "voxel"), resolution_m);
-  if (voxels.predicted.empty()) return words;
-  return words + fmt::format(", {} predicted{}", grouped(voxels.predicted.size()),
-                             is_predicted_seen ? "" : ", none of these in sight");
-}
-
-/// Whether they do not all lie behind others.
-bool is_any_seen(std::span<const VoxelIndex> voxels, const OccupancyGrid& grid,
-                 const RenderView& view) {
-  const GridGeometry& geometry = grid.geometry();
-  return std::any_of(voxels.begin(), voxels.end(), [&](VoxelIndex v) {
-    const Vec3 p_m = geometry.center_m(geometry.key_at(v));
-    return shows(view, grid, p_m, geometry.resolution_m());
-  });
 }
 
 Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderView& view) {
@@ -62,17 +37,22 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
   if (!voxels.occupied.empty()) {
     scene.surfaces.push_back(voxel_cubes(geometry, voxels.occupied, colours));
   }
-  const std::vector<Rgb> predicted = {kPredicted};
+  const std::vector<Rgb> predicted = {looks::kPredicted.rgb()};
   scene.surfaces.push_back(voxel_cubes(geometry, voxels.predicted, predicted));
-  scene.surfaces.push_back(free_faces(grid, voxels.unknown, kUnknown, 0.85F));
+  scene.surfaces.push_back(free_faces(grid, voxels.unknown, looks::kUnknown.rgb(), 0.85F));
   scene.shading = kDataShading;
-  const bool is_predicted_seen = is_any_seen(voxels.predicted, grid, view);
-  picture.detail = fmt::format("after {}: {}", views_so_far(run.record(), iteration),
-                               counts_of(voxels, geometry.resolution_m(), is_predicted_seen));
-  picture.legend = {
-      {fmt::format("unknown beside free, near surface: {}", grouped(voxels.unknown.size())),
-       {kUnknown}}};
-  if (is_predicted_seen) picture.legend.push_back({"predicted by symmetry", {kPredicted}});
+  const bool is_predicted_seen = shows_any(view, grid, scene, predicted.front());
+  picture.detail =
+      fmt::format("after {}: {} of {} m occupied", views_so_far(run.record(), iteration),
+                  counted(voxels.occupied.size(), "voxel"), geometry.resolution_m());
+  if (!voxels.predicted.empty()) {
+    picture.detail += fmt::format(", {} predicted{}", grouped(voxels.predicted.size()),
+                                  is_predicted_seen ? "" : ", none of these in sight");
+  }
+  picture.legend = {entry(looks::kUnknown)};
+  picture.legend.front().label +=
+      fmt::format(" beside free, near surface: {}", grouped(voxels.unknown.size()));
+  if (is_predicted_seen) picture.legend.push_back(entry(looks::kPredicted));
   picture.legend.push_back({.label = fmt::format("{:.1f} m", high_m),
                             .colours = amount_colours(),
                             .label_before = fmt::format("occupied, by height from {:.1f}", low_m),
@@ -84,7 +64,7 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
 
 const PictureKind kVoxelsPicture = {.name = "voxels",
                                     .shows = "OctoMap voxels: occupied, predicted, unknown",
-                                    .frame = frame_voxels,
+                                    .frame = frame_map,
                                     .colour_range = height_range,
                                     .draw = draw_voxels};
 

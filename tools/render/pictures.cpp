@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
-#include "tools/render/place_marks.hpp"
 
 namespace gnbv {
 namespace {
-
-constexpr std::array<const PictureKind*, 7> kKinds = {
-    &kPathPicture,   &kProfilePicture,    &kCloudPicture, &kCoveragePicture,
-    &kVoxelsPicture, &kCandidatesPicture, &kPlanPicture};
 
 // What lies beyond the right and the lower border is cut off.
 void paste(const Image& image, int x, int y, Image& onto) {
@@ -31,53 +25,13 @@ Image blank(int width_px, int height_px) {
   return image;
 }
 
-}  // namespace
-
-std::span<const PictureKind* const> picture_kinds() { return kKinds; }
-
-const PictureKind& picture_kind(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const PictureKind* kind : kKinds) {
-    if (kind->name == name) return *kind;
-    names.push_back(kind->name);
-  }
-  names.insert(names.end(), {"snapshots", "movie", "all"});
-  throw BadInput(fmt::format("--what {}: no such picture ({}there are: {})", name,
-                             did_you_mean(name, names), join(names)));
-}
-
-PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
-                                   PictureOptions options) {
-  if (kind.colour_range == nullptr || options.colour_range) return options;
-  const PictureOptions alone = options;
-  for (RunSource* const run : runs) {
-    try {
-      const std::array<double, 2> own = kind.colour_range(*run, alone);
-      const std::array<double, 2> all = options.colour_range.value_or(own);
-      options.colour_range = {std::min(all[0], own[0]), std::max(all[1], own[1])};
-    } catch (const BadInput&) {  // of what the run lacks; its picture will say so
-    }
-  }
-  return options;
-}
-
-PictureOptions with_shared_angles(const PictureKind& kind, std::span<RunSource* const> runs,
-                                  PictureOptions options, const RenderView& view) {
-  if (kind.second_angles != nullptr && runs.size() > 1) {
-    options.second_angles = kind.second_angles(runs, options, view);
-  }
-  return options;
-}
-
-namespace {
-
 /// A quarter of the width, framed, in the upper right corner, with words below it where there are
 /// any: each pixel the mean of those it covers.
-void draw_inset(const Image& inset, const std::string& words, double u, Image& image) {
+void draw_inset(const Image& inset, const std::string& words, int top_px, double u, Image& image) {
   const int width = static_cast<int>(kInsetShare * image.width_px);
   const int height = width * inset.height_px / std::max(1, inset.width_px);
   const int x0 = image.width_px - width - static_cast<int>(kInsetBorder * u);
-  const int y0 = static_cast<int>(kInsetBorder * u);
+  const int y0 = top_px + static_cast<int>(kInsetBorder * u);
   if (x0 < 0 || y0 + height > image.height_px) return;
   const double below = words.empty() ? 2.0 : kInsetWords;
   draw_box(image, {x0 - 2.0 * u, y0 - 2.0 * u}, {x0 + width + 2.0 * u, y0 + height + below * u},
@@ -123,7 +77,7 @@ void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options
   Image drawn = renderer.render(panel.scene, view);
   draw_place_marks(panel, view, u, has_words(options), drawn);
   // the others are seen as the first is, unless they say so
-  if (has_words(options) && layout.foot_px > 0 && (i == 0 || panel.view)) {
+  if (has_words(options) && (i == 0 || panel.view)) {
     draw_scale(drawn, view, u, scale_of_panel_m(view, layout.view));
   }
   paste(drawn, x, y, image);
@@ -131,28 +85,6 @@ void draw_panel(const Panel& panel, std::size_t i, const PictureOptions& options
   const double height =
       fitting_height_px(panel.note, 11.0 * u, view.width_px - 2.0 * kCaptionBorder * u);
   draw_text(image, panel.note, x + kCaptionBorder * u, y - 8.0 * u, height, kInk);
-}
-
-DrawnPicture drawn(const Picture& picture, const RunSource& run, const PictureOptions& options,
-                   const PanelLayout& layout, Renderer& renderer) {
-  Image image = blank(options.width_px, options.height_px);
-  for (std::size_t i = 0; i < picture.panels.size(); ++i) {
-    draw_panel(picture.panels[i], i, options, layout, renderer, image);
-  }
-  if (!picture.inset.rgb.empty()) {
-    draw_inset(picture.inset, has_words(options) ? picture.inset_words : "", unit_px(options),
-               image);
-  }
-  return {.image = std::move(image),
-          .caption = {.title = options.title.empty() ? run_title(run.record()) : options.title,
-                      .detail = picture.detail,
-                      .legend = picture.legend,
-                      .has_scale = layout.foot_px == 0,
-                      .has_sheet = picture.has_sheet,
-                      .letters = options.letters,
-                      .paper_px = layout.foot_px},
-          .view = layout.view,
-          .has_caption = has_words(options)};
 }
 
 /// (a), (b), ... (z), (aa), ...
@@ -166,26 +98,44 @@ std::string letter_of(std::size_t i) {
 
 }  // namespace
 
-DrawnPicture draw_without_words(const PictureKind& kind, RunSource& run,
+DrawnPicture draw_without_words(const Picture& picture, const std::string& title,
                                 const PictureOptions& options, const PanelLayout& layout,
                                 Renderer& renderer) {
-  return drawn(kind.draw(run, options, layout.view), run, options, layout, renderer);
+  Image image = blank(options.width_px, options.height_px);
+  for (std::size_t i = 0; i < picture.panels.size(); ++i) {
+    draw_panel(picture.panels[i], i, options, layout, renderer, image);
+  }
+  if (!picture.inset.rgb.empty()) {
+    draw_inset(picture.inset, has_words(options) ? picture.inset_words : "", layout.head_px,
+               unit_px(options), image);
+  }
+  return {.image = std::move(image),
+          .caption = {.title = title,
+                      .detail = picture.detail,
+                      .legend = picture.legend,
+                      .letters = options.letters,
+                      .paper_px = layout.foot_px},
+          .has_caption = has_words(options)};
 }
 
 Image with_words(const DrawnPicture& drawn) {
   Image image = drawn.image;
-  if (drawn.has_caption) draw_caption(image, drawn.caption, drawn.view);
+  if (drawn.has_caption) draw_caption(image, drawn.caption);
   return image;
 }
 
-Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
-                   const PanelLayout& layout, Renderer& renderer) {
-  return with_words(draw_without_words(kind, run, options, layout, renderer));
+std::string title_of(const RunSource& run, const PictureOptions& options) {
+  return options.title.empty() ? run_title(run.record()) : options.title;
 }
 
 Image draw_picture(const Picture& picture, const RunSource& run, const PictureOptions& options,
                    const PanelLayout& layout, Renderer& renderer) {
-  return with_words(drawn(picture, run, options, layout, renderer));
+  return with_words(draw_without_words(picture, title_of(run, options), options, layout, renderer));
+}
+
+Image draw_picture(const PictureKind& kind, RunSource& run, const PictureOptions& options,
+                   const PanelLayout& layout, Renderer& renderer) {
+  return draw_picture(kind.draw(run, options, layout.view), run, options, layout, renderer);
 }
 
 std::vector<Image> sheet_cells(std::vector<DrawnPicture> drawn, int columns) {

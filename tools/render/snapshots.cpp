@@ -8,17 +8,15 @@
 
 #include "bench/score/voxel_set.hpp"
 #include "sensors/capture.hpp"
-#include "tools/render/flight_items.hpp"
-#include "tools/render/point_normals.hpp"
-#include "tools/render/vehicle_item.hpp"
 #include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/flight.hpp"
+#include "tools/scene/point_normals.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
 
-const Rgb kSeen = srgb(0x0b6fa8);
-const Rgb kFrustum = srgb(0x00735a);  // neither of the path's colours nor of the rotors'
 constexpr double kLeastReach = 0.65;  // of the structure's diagonal
 constexpr double kShoulder_rad = 0.6;
 
@@ -38,14 +36,9 @@ void frame_series(RunSource& run, const PictureOptions& options,
     const double length_m = pyramid_m(record, run.world(), camera);
     for (const ViewRecord& view : record.views) {
       const ViewPose& pose = view.decision.view;
-      const FrustumItem frustum =
-          frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, length_m, kFrustum);
-      const Vec3 far_m(length_m * std::tan(0.5 * camera.fov_x_rad),
-                       length_m * std::tan(0.5 * camera.fov_y_rad), length_m);
-      for (const double x : {-1.0, 1.0}) {
-        for (const double y : {-1.0, 1.0}) {
-          points_world_m.push_back(frustum.T_world_camera * far_m.cwiseProduct(Vec3(x, y, 1.0)));
-        }
+      for (const Vec3& corner_m : far_corners_m(
+               frustum_of(camera, T_world_body(pose), pose.gimbal_pitch_rad, length_m, {}))) {
+        points_world_m.push_back(corner_m);
       }
     }
   }
@@ -57,7 +50,6 @@ Picture no_picture(RunSource&, const PictureOptions&, const RenderView&) { retur
 
 const PictureKind kSnapshotFraming = {.name = "snapshots",
                                       .shows = "third-person images each --every views",
-                                      .words_width = 790.0,
                                       .has_inset = true,
                                       .frame = frame_series,
                                       .draw = no_picture};
@@ -88,7 +80,7 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
     cloud_.points_m.push_back(all[i]);
   }
   cloud_.normals = point_normals(cloud_.points_m, 2.5 * cell_m);
-  cloud_.colours = {kSeen};
+  cloud_.colours = {looks::kSeen.rgb()};
   cloud_.radius_m = static_cast<float>(0.95 * cell_m);
 }
 
@@ -97,10 +89,10 @@ std::vector<double> film_times_s(const RunRecord& record, std::size_t images) {
   if (record.views.empty()) return times_s;
   const double begin_s = record.views.front().time_s;
   const double whole_s = record.views.back().time_s - begin_s;
-  const std::size_t steps = whole_s > 0.0 ? std::max<std::size_t>(images, 2) - 1 : 0;
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double share = steps > 0 ? static_cast<double>(i) / static_cast<double>(steps) : 0.0;
-    times_s.push_back(begin_s + share * whole_s);
+  const std::size_t count = whole_s > 0.0 ? std::max<std::size_t>(images, 2) : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    times_s.push_back(begin_s + whole_s * static_cast<double>(i) /
+                                    static_cast<double>(std::max<std::size_t>(count - 1, 1)));
   }
   return times_s;
 }
@@ -118,21 +110,6 @@ Isometry Snapshots::T_world_body(double time_s) const {
   return true_pose_at(run_.record(), time_s).value_or(gnbv::T_world_body(last.decision.view));
 }
 
-/// The mean over some seconds of the path: what hangs on it does not jerk.
-Vec3 Snapshots::smooth_place(double time_s) const {
-  constexpr int kReach = 12;
-  constexpr double kStep_s = 0.25;
-  Vec3 sum_m = Vec3::Zero();
-  double count = 0.0;
-  for (int i = -kReach; i <= kReach; ++i) {
-    const auto pose = true_pose_at(run_.record(), time_s + kStep_s * i);
-    if (!pose) continue;
-    sum_m += pose->translation();
-    count += 1.0;
-  }
-  return count > 0.0 ? Vec3(sum_m / count) : T_world_body(time_s).translation();
-}
-
 RenderView Snapshots::view(std::size_t iteration) const {
   RenderView view = view_at(run_.record().views[iteration].time_s);
   // a film keeps its light; a picture by itself shows the side that it is taken from
@@ -144,7 +121,15 @@ RenderView Snapshots::view(std::size_t iteration) const {
 /// the vehicle does. As far away as the middle of the structure, within what the cameras see.
 RenderView Snapshots::view_at(double time_s) const {
   if (!follows_) return fixed_;
-  const Vec3 place_m = smooth_place(time_s);
+  Vec3 sum_m = Vec3::Zero();  // over some seconds of the path: what hangs on it does not jerk
+  double count = 0.0;
+  for (double shift_s = -3.0; shift_s <= 3.0; shift_s += 0.25) {
+    const auto pose = true_pose_at(run_.record(), time_s + shift_s);
+    if (!pose) continue;
+    sum_m += pose->translation();
+    count += 1.0;
+  }
+  const Vec3 place_m = count > 0.0 ? Vec3(sum_m / count) : T_world_body(time_s).translation();
   const Box3 structure_m = bounds_m(run_.world().structure);
   Vec3 ahead = structure_m.center() - place_m;
   ahead.z() = 0.0;
@@ -161,15 +146,6 @@ RenderView Snapshots::view_at(double time_s) const {
   return view;
 }
 
-/// All that a film shows, near enough: what throws shadows and where it flies.
-Box3 Snapshots::film_box_m() const {
-  Box3 box_m = bounds_m(run_.world().structure);
-  for (const TrajectorySample& sample : run_.record().path) {
-    box_m.extend(sample.T_world_body.translation());
-  }
-  return box_m;
-}
-
 const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   if (onboard_ && onboard_->first == iteration) return onboard_->second;
   const RunRecord& record = run_.record();
@@ -184,10 +160,6 @@ const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   return onboard_->second;
 }
 
-Picture Snapshots::picture(std::size_t iteration, const RenderView& view) {
-  return picture_at(run_.record().views[iteration].time_s, 0.0, view);
-}
-
 Picture Snapshots::picture_at(double time_s, double speed, const RenderView& view) {
   const RunRecord& record = run_.record();
   const std::size_t iteration = iteration_at(time_s);
@@ -195,7 +167,12 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   const double unit_m = layout_unit_m(view);
   Picture picture{.panels = std::vector<Panel>(1)};
   RenderScene& scene = picture.panels.front().scene;
-  if (speed > 0.0) scene.series_box_m = film_box_m();
+  if (speed > 0.0) {  // all that a film shows, near enough
+    scene.series_box_m = bounds_m(run_.world().structure);
+    for (const TrajectorySample& sample : record.path) {
+      scene.series_box_m->extend(sample.T_world_body.translation());
+    }
+  }
   add_ghost(run_, 0.5F, scene);
 
   const std::size_t seen = run_.cloud().view_points[iteration];
@@ -220,7 +197,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
     const double length_m =
         std::min(pyramid_m(record, run_.world(), camera), (follows_ ? 90.0 : 130.0) * unit_m);
     FrustumItem frustum =
-        frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, kFrustum);
+        frustum_of(camera, T, now.decision.view.gimbal_pitch_rad, length_m, looks::kCamera.rgb());
     frustum.edge_radius_m = static_cast<float>(1.3 * unit_m);
     scene.frusta.push_back(frustum);
   }
@@ -229,19 +206,15 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
       grouped(now.flown_m, 1), counted(now.cloud_points, "point"),
       speed > 0.0 ? fmt::format(", shown {:.0f} times as fast", speed) : "");
-  picture.legend = {
-      {.label = "last view", .colours = path_colours(), .label_before = "first"},
-      {.label = "not seen yet", .colours = {kGhostColour}},
-      {.label = "seen", .colours = {kSeen}, .mark = LegendItem::Mark::dot},
-      {.label = scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle",
-       .colours = {kFrontRotors}},
-      {.label =
-           record.scenario.cameras.size() == 1 ? "its camera's pyramid" : "its cameras' pyramids",
-       .colours = {kFrustum},
-       .mark = LegendItem::Mark::pyramid}};
+  picture.legend = {{.label = "last view", .colours = path_colours(), .label_before = "first"},
+                    {"not seen yet", {looks::kStructure.rgb()}},
+                    entry(looks::kSeen, LegendItem::Mark::dot),
+                    entry(looks::kFrontRotors),
+                    entry(looks::kCamera, LegendItem::Mark::pyramid)};
+  picture.legend[3].label =
+      scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle";
   picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
-  picture.has_sheet = follows_;
   return picture;
 }
 

@@ -25,7 +25,9 @@ class Snapshots {
   Snapshots(RunSource& run, const PictureOptions& options, const RenderView& fixed, bool follows);
 
   /// At the moment of a view.
-  Picture picture(std::size_t iteration, const RenderView& view);
+  Picture picture(std::size_t iteration, const RenderView& view) {
+    return picture_at(run_.record().views[iteration].time_s, 0.0, view);
+  }
   RenderView view(std::size_t iteration) const;
 
   /// At any time from the first view on. `speed`: how many times faster than it was flown the film
@@ -36,8 +38,6 @@ class Snapshots {
  private:
   std::size_t iteration_at(double time_s) const;  // of the last view no later
   Isometry T_world_body(double time_s) const;
-  Vec3 smooth_place(double time_s) const;
-  Box3 film_box_m() const;
   const Image& seen_by_camera(std::size_t iteration);
 
   RunSource& run_;

@@ -1,6 +1,6 @@
 #include "tools/report/packed_json.hpp"
 
-#include "tools/render/rejection_look.hpp"
+#include "tools/scene/looks.hpp"
 
 namespace gnbv {
 
@@ -12,7 +12,7 @@ namespace {
 Json reasons_json() {
   Json reasons = Json::array();
   for (const RejectionLook& look : rejection_looks())
-    reasons.push_back({{"words", look.words}, {"colour", look.rrggbb}});
+    reasons.push_back({{"words", look.words}, {"colour", look.light}});
   return reasons;
 }
 

@@ -12,13 +12,13 @@
 #include "sim/core/text.hpp"
 #include "tools/figures/groups.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/render/colour.hpp"
 #include "tools/report/page_parts.hpp"
 #include "tools/report/page_text.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/structures.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,15 +7,14 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
-#include "tools/render/caption.hpp"
+#include "tools/render/pictures.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/error_scale.hpp"
 
 namespace gnbv {
 namespace {
 
 constexpr int kMostCuts = 64;  // of an edge
-constexpr std::array<std::uint32_t, 6> kErrorTable = {0xdfe5ec, 0xf2e0a0, 0xf5b04e,
-                                                      0xe2702c, 0xb5301f, 0x6d0a1c};
 
 Rgb linear_of(const Vec3f& srgb_levels) {
   Rgb colour{};
@@ -25,42 +24,32 @@ Rgb linear_of(const Vec3f& srgb_levels) {
   return colour;
 }
 
-/// From pale, which is right, over yellow and orange to a dark red: errors stand out from shadows.
-const std::vector<Rgb>& error_colours() {
-  static const std::vector<Rgb> colours = linear_colours(kErrorTable);
-  return colours;
+PictureOptions options_of(const std::string& title, int width_px, int height_px,
+                          const ViewAngles& angles) {
+  PictureOptions options;
+  options.width_px = width_px;
+  options.height_px = height_px;
+  options.angles = angles;
+  options.title = title;
+  return options;
 }
 
-/// What that share of the values stays under; 0 without any.
-double quantile(std::span<const double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(sorted.begin(), at, sorted.end());
-  return *at;
-}
-
-RenderView framed(const TriangleMesh& mesh, int width_px, int height_px, const ViewAngles& angles) {
+PanelLayout layout_of(const TriangleMesh& mesh, int legend_rows, const PictureOptions& options) {
   std::vector<Vec3> points_m;  // its box would leave much of the picture empty
   points_m.reserve(mesh.vertices_m.size());
   for (const Vec3f& p_m : mesh.vertices_m) points_m.push_back(p_m.cast<double>());
-  const double unit_px = layout_unit_px(width_px, height_px);
-  FrameMargins margins = caption_margins(width_px, height_px, unit_px);
-  const double below_title = 82.0 * unit_px / height_px;
-  if (margins.bottom + below_title < 1.0) margins.top = std::max(margins.top, below_title);
-  return frame_points(points_m, angles, width_px, height_px, margins);
+  return lay_out(points_m, {.legend_rows = legend_rows}, options);
 }
 
-Image drawn(SurfaceItem item, const RenderView& view, const Caption& caption,
-            float shading = 1.0F) {
-  RenderScene scene;
+/// On a ground with a metre grid.
+Image drawn(SurfaceItem item, Picture picture, const PanelLayout& layout,
+            const PictureOptions& options, float shading) {
+  RenderScene& scene = picture.panels.emplace_back().scene;
   scene.shading = shading;
   scene.surfaces.push_back(std::move(item));
   scene.ground = GroundItem{};
-  Image image = render(scene, view);
-  if (fits_caption(view.width_px, view.height_px)) draw_caption(image, caption, view);
-  return image;
+  Renderer renderer;
+  return with_words(draw_without_words(picture, options.title, options, layout, renderer));
 }
 
 /// A face in n x n like ones, each corner with the colour of its place in the atlas.
@@ -126,23 +115,12 @@ SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m) {
 
 Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
                       int height_px, const ViewAngles& angles) {
-  const RenderView view = framed(mesh.shape, width_px, height_px, angles);
+  const PictureOptions options = options_of(title, width_px, height_px, angles);
+  const PanelLayout layout = layout_of(mesh.shape, 0, options);
   constexpr double kPiece_px = 2.0;
-  return drawn(
-      textured_item(mesh, kPiece_px / px_per_m_at_focus(view)), view,
-      {.title = title,
-       .detail = fmt::format("reconstructed surface, {}", counted(mesh.shape.faces.size(), "face")),
-       .legend = {}});
-}
-
-double error_range_m(std::span<const double> errors_m) {
-  constexpr double kLeast_m = 0.001;
-  const double most_m = std::max(kLeast_m, quantile(errors_m, 0.95));
-  const double power_m = std::pow(10.0, std::floor(std::log10(most_m) + 1e-9));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (most_m <= (factor + 1e-9) * power_m) return factor * power_m;
-  }
-  return 10.0 * power_m;
+  const std::string faces = counted(mesh.shape.faces.size(), "face");
+  return drawn(textured_item(mesh, kPiece_px / px_per_m_at_focus(layout.view)),
+               {.detail = "reconstructed surface, " + faces}, layout, options, 1.0F);
 }
 
 Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
@@ -150,23 +128,22 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
                     const ViewAngles& angles) {
   GNBV_CHECK(errors_m.size() == mesh.vertices_m.size(), "{} distances for {} vertices",
              errors_m.size(), mesh.vertices_m.size());
-  SurfaceItem item{.mesh = mesh, .vertex_colours = {}};
-  const double most_m = error_range_m(errors_m);
+  SurfaceItem item{.mesh = mesh};
+  const ErrorScale scale = error_scale(errors_m);
   for (const double error_m : errors_m) {
-    item.vertex_colours.push_back(ramp(error_colours(), error_m / most_m));
+    item.vertex_colours.push_back(ramp(error_colours(), error_m / scale.most_m));
   }
-  return drawn(
-      std::move(item), framed(mesh, width_px, height_px, angles),
-      {.title = title,
-       .detail = fmt::format("distance of the reconstructed surface to the true "
-                             "structure: half of its corners within {:.2g} mm, 95 % "
-                             "within {:.2g} mm; gaps have none",
-                             1000.0 * quantile(errors_m, 0.5), 1000.0 * quantile(errors_m, 0.95)),
-       .legend = {{.label = fmt::format("{:g} mm or more", 1000.0 * most_m),
-                   .colours = error_colours(),
-                   .label_before = "0",
-                   .label_middle = fmt::format("{:g}", 500.0 * most_m)}}},
-      kDataShading);
+  const PictureOptions options = options_of(title, width_px, height_px, angles);
+  Picture picture{.detail = fmt::format("distance of the reconstructed surface to the true "
+                                        "structure: half of its corners within {:.2g} mm, 95 % "
+                                        "within {:.2g} mm; gaps have none",
+                                        1000.0 * scale.median_m, 1000.0 * scale.within_m),
+                  .legend = {{.label = fmt::format("{:g} mm or more", 1000.0 * scale.most_m),
+                              .colours = error_colours(),
+                              .label_before = "0",
+                              .label_middle = fmt::format("{:g}", 500.0 * scale.most_m)}}};
+  return drawn(std::move(item), std::move(picture), layout_of(mesh, 1, options), options,
+               kDataShading);
 }
 
 }  // namespace gnbv

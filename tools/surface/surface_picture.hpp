@@ -1,7 +1,7 @@
 // Pictures of a reconstructed surface.
 #pragma once
 
-#include "tools/render/scene.hpp"
+#include "tools/scene/scene.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
@@ -19,11 +19,8 @@ SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m);
 Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
                       int height_px, const ViewAngles& angles = {});
 
-/// Where an axis of errors ends: at what 95 % stay under, rounded up to 1, 2 or 5 and tens, a
-/// millimetre at least.
-double error_range_m(std::span<const double> errors_m);
-
-/// The same coloured by the distance to the truth, from nothing to error_range_m() and beyond. One
+/// The same coloured by the distance to the truth, from nothing to the end of error_scale() and
+/// beyond. One
 /// distance a vertex.
 Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
                     const std::string& title, int width_px, int height_px,

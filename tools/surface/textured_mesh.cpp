@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "sim/core/error.hpp"
-#include "tools/render/colour.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

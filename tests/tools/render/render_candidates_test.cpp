@@ -1,241 +1,33 @@
-// Laws of the picture of a decision.
-#include <fmt/format.h>
+// Laws of the picture of a decision, and of what it is made of.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <string_view>
 
 #include "sensors/capture.hpp"
+#include "sim/core/error.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
-#include "tools/render/candidate_legend.hpp"
-#include "tools/render/candidate_views.hpp"
-#include "tools/render/chosen_view_item.hpp"
-#include "tools/render/frontier_items.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/render/place_marks.hpp"
-#include "tools/render/rejection_look.hpp"
-#include "tools/render/voxel_items.hpp"
 #include "tools/run/candidates_jsonl.hpp"
+#include "tools/scene/decision.hpp"
+#include "tools/scene/flight.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
 
-Picture drawn(RunSource& run, const RenderView& view = {}) {
+PictureOptions asked() {
   PictureOptions options;
   options.iteration = kAsked;
-  return kCandidatesPicture.draw(run, options, view);
+  return options;
 }
 
-std::optional<LegendItem> item_of(const Picture& picture, std::string_view beginning) {
-  for (const LegendItem& item : picture.legend) {
-    if (item.label.starts_with(beginning)) return item;
-  }
-  return std::nullopt;
-}
-
-/// The first balls and tubes of a scene are the candidates, in their order: a tube from where it
-/// stands to where it looks, a ball at the tube's beginning where it is valid, else at its end.
-bool shows(const RenderScene& scene, const Plan& plan) {
-  if (scene.balls.size() < plan.candidates.size()) return false;
-  if (scene.tubes.size() < plan.candidates.size()) return false;
-  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    const Candidate& candidate = plan.candidates[i];
-    const Vec3f p_m = candidate.view.p_world_m.cast<float>();
-    const TubeItem& pin = scene.tubes[i];
-    const Vec3f& ball_m = candidate.rejected ? pin.points_m.back() : pin.points_m.front();
-    if (scene.balls[i].centre_m != ball_m) return false;
-    const Vec3f ahead = pin.points_m.back() - pin.points_m.front();
-    const double yaw_rad = std::atan2(ahead.y(), ahead.x());
-    if (pin.points_m.front() != p_m) return false;
-    if (std::abs(wrap_angle_rad(yaw_rad - candidate.view.yaw_rad)) > 1e-3) return false;
-  }
-  return true;
-}
-
-TEST(CandidatesPicture, BothPanelsHoldEachCandidate) {
-  const TempFolder temp;
-  const Plan& plan = watched().plans[kAsked - 1];
-  RunSource planned = source(temp.path());
-  const Picture picture = drawn(planned);
-  ASSERT_EQ(picture.panels.size(), 2U);
-  for (const Panel& panel : picture.panels) EXPECT_TRUE(shows(panel.scene, plan));
-  Plan fewer = plan;
-  fewer.candidates.pop_back();
-  // the same from the file
-  const auto from_file = [&](const Plan& of_asked) {
-    CandidatesFile file(temp.path(), 1);
-    for (std::size_t i = 0; i < watched().plans.size(); ++i) {
-      file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
-    }
-    file.finish();
-    RunSource read = source(temp.path());
-    return drawn(read).panels.front().scene;
-  };
-  const std::size_t all = picture.panels.front().scene.balls.size();
-  EXPECT_EQ(from_file(plan).balls.size(), all);
-  const RenderScene less = from_file(fewer);
-  EXPECT_TRUE(shows(less, fewer));
-  EXPECT_EQ(less.balls.size() + 1, all);  // nothing but that one is gone
-}
-
-/// The close-up holds the chosen view's rays: within its pyramid, and each says something.
-TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  const Picture picture = drawn(run);
-  const RenderScene& scene = picture.panels[1].scene;
-  const Scenario& scenario = watched().flown.scenario;
-  const CameraModel camera = make_camera_model(scenario.cameras.front());
-  const ViewPose& view = watched().flown.result.views[kAsked].decision.view;
-  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
-  const Eigen::AlignedBox2d whole_px(
-      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
-  const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
-  std::size_t hits = 0;
-  const std::size_t pins = watched().plans[kAsked - 1].candidates.size();
-  ASSERT_GT(scene.tubes.size(), pins);
-  for (std::size_t i = pins; i < scene.tubes.size(); ++i) {
-    const TubeItem& piece = scene.tubes[i];
-    const Vec3 end_m = piece.points_m.back().cast<double>();
-    const Vec3 end = T_world_camera.inverse() * end_m;
-    ASSERT_GT(end.z(), 0.0);
-    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
-    EXPECT_TRUE(whole_px.contains(pixel_of(camera, end)));
-    const bool is_hit = std::any_of(scene.balls.begin(), scene.balls.end(), [&](const auto& ball) {
-      return ball.centre_m == piece.points_m.back() && ball.colour == kChosenLook.hit;
-    });
-    hits += is_hit ? 1 : 0;
-    if (!is_hit) continue;
-    EXPECT_EQ(grid.state_at(end_m), VoxelState::occupied);
-  }
-  EXPECT_GT(hits, 0U);
-  // what the first panel frames, the second sees from near
-  ASSERT_TRUE(picture.panels[1].view.has_value());
-  const std::optional<Vec3> at = project(*picture.panels[1].view, view.p_world_m);
-  ASSERT_TRUE(at.has_value());
-  EXPECT_TRUE(at->x() > 0 && at->x() < picture.panels[1].view->width_px);
-  EXPECT_TRUE(at->y() > 0 && at->y() < picture.panels[1].view->height_px);
-}
-
-/// However short it is, and whatever stands before it.
-TEST(CandidatesPicture, TheWayThereShowsOverEverythingAndFromBesideIt) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  const Picture picture = drawn(run);
-  const std::vector<ViewRecord>& views = run.record().views;
-  const Vec3& before_m = views[kAsked - 1].decision.view.p_world_m;
-  const Vec3& chosen_m = views[kAsked].decision.view.p_world_m;
-  for (const Panel& panel : picture.panels) {
-    ASSERT_GE(panel.lines.size(), 3U);
-    EXPECT_EQ(panel.lines.front().from_world_m, chosen_m);
-    EXPECT_EQ(panel.lines[1].from_world_m, before_m);
-    EXPECT_EQ(panel.lines.back().from_world_m, before_m);
-    EXPECT_LT(panel.lines.back().width, panel.lines.front().width);  // the upper dot hides no other
-  }
-  const RenderView& near = *picture.panels[1].view;
-  const Vec3 towards = (near.T_world_camera.linear() * Vec3::UnitZ()).normalized();
-  EXPECT_GT((chosen_m - before_m).normalized().cross(towards).norm(), 0.5);
-}
-
-TEST(CandidatesPicture, LinesOverTheSceneAreNotHiddenByIt) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  PictureOptions options;
-  options.has_caption = false;
-  options.width_px = 400;
-  options.height_px = 300;
-  RunSource* const runs[] = {&run};
-  const PanelLayout layout = lay_out(kPathPicture, runs, options);
-  const Vec3 middle_m = bounds_m(run.world().structure).center();
-  Picture picture = kPathPicture.draw(run, options, layout.view);
-  picture.panels.front().lines = {{middle_m, middle_m, {255, 0, 255}, 8.0}};
-  Renderer renderer;
-  const Image image = draw_picture(picture, run, options, layout, renderer);
-  const Vec3 at_px = *project(layout.view, middle_m);
-  EXPECT_EQ(image.at(static_cast<int>(at_px.x()), static_cast<int>(at_px.y())),
-            (Rgb8{255, 0, 255}));
-}
-
-/// A camera mounted off the body is seen to be the chosen view's.
-TEST(CandidatesPicture, ThePyramidHangsOnTheChosenView) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  RunRecord record = run.record();
-  for (CameraConfig& camera : record.scenario.cameras) camera.p_body_m = Vec3(0, 0, -1);
-  const Vec3f view = record.views[kAsked].decision.view.p_world_m.cast<float>();
-  RenderScene scene;
-  add_chosen_view(record, run.world(), watched().beliefs[kAsked - 1], kAsked, 0.01, scene);
-  ASSERT_FALSE(scene.frusta.empty());
-  const Vec3f eye = scene.frusta.front().T_world_camera.translation().cast<float>();
-  EXPECT_NEAR((eye - view).norm(), 1.0, 1e-5);
-  EXPECT_TRUE(std::any_of(scene.tubes.begin(), scene.tubes.end(), [&](const TubeItem& tube) {
-    return tube.points_m.front() == view && tube.points_m.back() == eye;
-  }));
-}
-
-/// A picture says of how many candidates it shows nothing, and its legend counts the others.
-TEST(CandidatesPicture, TheNoteCountsCandidatesThatNoPanelShows) {
-  const TempFolder temp;
-  RunSource run = source(temp.path());
-  PictureOptions options;
-  options.iteration = kAsked;
-  RunSource* const runs[] = {&run};
-  const RenderView whole = lay_out(kCandidatesPicture, runs, options).view;
-  std::vector<RenderView> views = {whole};
-  const auto turn = [&](double angle_rad, const Vec3& axis) {
-    views.push_back(whole);
-    views.back().T_world_camera.rotate(Eigen::AngleAxisd(angle_rad, axis));
-  };
-  for (const double side : {-1.0, 1.0}) {
-    turn(0.5 * side * whole.fov_y_rad, Vec3::UnitX());
-    turn(0.7 * side * whole.fov_y_rad, Vec3::UnitY());
-  }
-  turn(kPi, Vec3::UnitY());  // nothing before the camera
-  const std::vector<Candidate>& candidates = watched().plans[kAsked - 1].candidates;
-  const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
-  std::array<std::size_t, 4> beyond_side{};  // left, right, above, below
-  for (const RenderView& view : views) {
-    const Eigen::AlignedBox2d picture_px(Eigen::Vector2d::Zero(),
-                                         Eigen::Vector2d(view.width_px, view.height_px));
-    const Picture picture = kCandidatesPicture.draw(run, options, view);
-    const RenderView& near = picture.panels[1].view.value();
-    std::size_t unseen = 0;
-    std::size_t seen_rejected = 0;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const Candidate& candidate = candidates[i];
-      const Vec3& p_m = candidate.view.p_world_m;
-      const std::optional<Vec3> px = project(view, p_m);
-      bool is_seen = false;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const RenderView& from = k == 0 ? view : near;
-        const BallItem& ball = picture.panels[k].scene.balls[i];
-        const Vec3 ball_m = ball.centre_m.cast<double>();
-        const std::optional<Vec3> at = project(from, ball_m);
-        is_seen |= at && picture_px.contains(at->head<2>()) &&
-                   !is_hidden(grid, from, ball_m, ball.radius_m);
-      }
-      unseen += is_seen ? 0 : 1;
-      seen_rejected += is_seen && candidate.rejected ? 1 : 0;
-      if (!px) continue;
-      beyond_side[0] += px->x() < 0.0 ? 1 : 0;
-      beyond_side[1] += px->x() > view.width_px ? 1 : 0;
-      beyond_side[2] += px->y() < 0.0 ? 1 : 0;
-      beyond_side[3] += px->y() > view.height_px ? 1 : 0;
-    }
-    const std::string all = fmt::format("{} candidates as pins", candidates.size());
-    EXPECT_EQ(picture.panels.front().note,
-              unseen == 0 ? all : fmt::format("{}, {} hidden or outside the picture", all, unseen));
-    std::size_t said = 0;
-    for (const RejectionLook& look : rejection_looks()) {
-      const std::string words = fmt::format("{}: ", look.words);
-      const auto item = item_of(picture, words);
-      if (item) said += std::stoul(item->label.substr(words.size()));
-    }
-    EXPECT_EQ(said, seen_rejected);
-  }
-  EXPECT_GT(beyond_side[0] * beyond_side[1] * beyond_side[2] * beyond_side[3], 0U);
-}
+const Plan& planned() { return watched().plans[kAsked - 1]; }
+const OccupancyGrid& grid_before() { return watched().beliefs[kAsked - 1].grid; }
 
 /// A run's file with other candidates for the decision that is asked for.
 void write_candidates(const Plan& of_asked, const std::filesystem::path& folder) {
@@ -251,114 +43,234 @@ Picture drawn_with(const Plan& plan, const RenderView& view = {}) {
   const TempFolder temp;
   write_candidates(plan, temp.path());
   RunSource run = source(temp.path());
-  return drawn(run, view);
+  return kCandidatesPicture.draw(run, asked(), view);
 }
 
-/// Whoever was chosen in the end: what was sampled around clusters shows them.
-TEST(CandidatesPicture, FrontiersAreShownWhereverViewsAroundThemWereSampled) {
-  Plan plan = watched().plans[kAsked - 1];
+std::optional<LegendItem> item_of(const Picture& picture, std::string_view beginning) {
+  for (const LegendItem& item : picture.legend) {
+    if (item.label.starts_with(beginning)) return item;
+  }
+  return std::nullopt;
+}
+
+/// The first balls and tubes of a scene are the candidates, in their order: a pin from where each
+/// stands to where it looks, the ball at its beginning where it is valid, else at its end.
+bool holds(const RenderScene& scene, const Plan& plan) {
+  if (std::min(scene.balls.size(), scene.tubes.size()) < plan.candidates.size()) return false;
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    const Candidate& candidate = plan.candidates[i];
+    const std::vector<Vec3f>& pin_m = scene.tubes[i].points_m;
+    const Vec3f& ball_m = scene.balls[i].centre_m;
+    if (pin_m.front() != candidate.view.p_world_m.cast<float>()) return false;
+    if (((candidate.rejected ? pin_m.back() : pin_m.front()) - ball_m).norm() > 1e-5F) return false;
+    const Vec3f ahead = pin_m.back() - pin_m.front();
+    const double yaw_rad = std::atan2(ahead.y(), ahead.x());
+    if (std::abs(wrap_angle_rad(yaw_rad - candidate.view.yaw_rad)) > 1e-3) return false;
+  }
+  return true;
+}
+
+TEST(CandidatesPicture, HoldsEachCandidateWhetherReadOrPlannedAgain) {
+  const TempFolder temp;
+  RunSource again = source(temp.path());
+  const RenderScene scene = kCandidatesPicture.draw(again, asked(), {}).panels.at(0).scene;
+  EXPECT_TRUE(holds(scene, planned()));
+  EXPECT_EQ(drawn_with(planned()).panels.at(0).scene.balls.size(), scene.balls.size());
+  Plan fewer = planned();
+  fewer.candidates.pop_back();
+  const RenderScene less = drawn_with(fewer).panels.at(0).scene;
+  EXPECT_TRUE(holds(less, fewer));
+  EXPECT_EQ(less.balls.size() + 1, scene.balls.size());  // nothing but that one is gone
+}
+
+/// Within the chosen view's pyramid, and each says something.
+TEST(CandidatesPicture, RaysLieInsideTheViewAndEndOnSurfaceOrCrossTheUnknown) {
+  const Flown& flown = watched().flown;
+  RenderScene scene;
+  RunRecord record;
+  record.scenario = flown.scenario;
+  record.views = flown.result.views;
+  add_chosen_view(record, flown.world, watched().beliefs[kAsked - 1], kAsked, 0.01, scene);
+  const CameraModel camera = make_camera_model(record.scenario.cameras.front());
+  const ViewPose& view = record.views[kAsked].decision.view;
+  const Isometry T_world_camera = T_world_body(view) * camera.T_body_camera;
+  const Eigen::AlignedBox2d whole_px(
+      Eigen::Vector2d::Zero(), Eigen::Vector2d(camera.config.width_px, camera.config.height_px));
+  ASSERT_FALSE(scene.tubes.empty());
+  ASSERT_FALSE(scene.balls.empty());
+  std::size_t unknown = 0;
+  for (const TubeItem& piece : scene.tubes) {
+    const Vec3 end = T_world_camera.inverse() * piece.points_m.back().cast<double>();
+    ASSERT_GT(end.z(), 0.0);
+    EXPECT_LE(end.z(), camera.config.range_max_m + 1e-3);
+    EXPECT_TRUE(whole_px.contains(pixel_of(camera, end)));
+    const Vec3 middle_m = 0.5 * (piece.points_m.front() + piece.points_m.back()).cast<double>();
+    const bool is_unknown = piece.colours.front() == looks::kRayUnknown.rgb();
+    if ((piece.points_m.front() - piece.points_m.back()).norm() < 0.2F) continue;
+    EXPECT_EQ(grid_before().state_at(middle_m) == VoxelState::unknown, is_unknown);
+    unknown += is_unknown ? 1 : 0;
+  }
+  for (const BallItem& hit : scene.balls) {
+    EXPECT_EQ(grid_before().state_at(hit.centre_m.cast<double>()), VoxelState::occupied);
+    EXPECT_TRUE(std::any_of(scene.tubes.begin(), scene.tubes.end(), [&](const TubeItem& piece) {
+      return piece.points_m.back() == hit.centre_m;
+    }));
+  }
+  EXPECT_GT(unknown, 0U);
+  // a camera that is mounted off the body is seen to be the chosen view's
+  for (CameraConfig& mounted : record.scenario.cameras) mounted.p_body_m = Vec3(0, 0, -1);
+  RenderScene hung;
+  add_chosen_view(record, flown.world, watched().beliefs[kAsked - 1], kAsked, 0.01, hung);
+  const Vec3f eye = hung.frusta.at(0).T_world_camera.translation().cast<float>();
+  EXPECT_EQ(hung.tubes.at(0).points_m,
+            (std::vector<Vec3f>{Vec3f(view.p_world_m.cast<float>()), eye}));
+}
+
+/// However short it is, and whatever stands before it.
+TEST(CandidatesPicture, TheWayThereShowsOverEverything) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  PictureOptions options = asked();
+  options.has_caption = false;
+  options.width_px = 400;
+  options.height_px = 300;
+  const PanelLayout layout = layout_of(kCandidatesPicture, run, options);
+  Picture picture = kCandidatesPicture.draw(run, options, layout.view);
+  const std::vector<PlaceLine>& lines = picture.panels.at(0).lines;
+  const std::vector<ViewRecord>& views = run.record().views;
+  EXPECT_EQ(lines.front().from_world_m, views[kAsked].decision.view.p_world_m);
+  EXPECT_EQ(lines[1].from_world_m, views[kAsked - 1].decision.view.p_world_m);
+  EXPECT_LT(lines.back().width, lines.front().width);  // the upper dot hides no other
+  const Vec3 middle_m = bounds_m(run.world().structure).center();
+  picture.panels.at(0).lines = {{middle_m, middle_m, srgb(0xff00ff), 8.0}};
+  Renderer renderer;
+  const Image image = draw_picture(picture, run, options, layout, renderer);
+  const Vec3 at_px = *project(layout.view, middle_m);
+  EXPECT_EQ(image.at(static_cast<int>(at_px.x()), static_cast<int>(at_px.y())),
+            (Rgb8{255, 0, 255}));
+}
+
+/// The legend counts what of each reason is in sight, and the detail what is not.
+TEST(CandidatesPicture, CountsWhatItDoesNotShow) {
+  const TempFolder temp;
+  RunSource run = source(temp.path());
+  const RenderView whole = view_of(kCandidatesPicture, run, asked());
+  std::size_t most_unseen = 0;
+  for (const double turn_rad : {0.0, 0.5 * whole.fov_y_rad, -0.7 * whole.fov_y_rad, kPi}) {
+    RenderView view = whole;
+    view.T_world_camera.rotate(Eigen::AngleAxisd(turn_rad, Vec3::UnitY()));
+    const Picture picture = kCandidatesPicture.draw(run, asked(), view);
+    std::size_t unseen = 0;
+    std::size_t seen_rejected = 0;
+    for (std::size_t i = 0; i < planned().candidates.size(); ++i) {
+      const BallItem& ball = picture.panels[0].scene.balls[i];
+      const bool is_seen = shows(view, grid_before(), ball.centre_m.cast<double>(),
+                                 static_cast<double>(ball.radius_m));
+      unseen += is_seen ? 0 : 1;
+      seen_rejected += is_seen && planned().candidates[i].rejected ? 1 : 0;
+    }
+    const std::string words = std::to_string(unseen) + " hidden or outside the picture";
+    EXPECT_EQ(picture.detail.ends_with(words), unseen > 0) << picture.detail;
+    std::size_t said = 0;
+    for (const RejectionLook& look : rejection_looks()) {
+      const std::string before = std::string(look.words) + ": ";
+      if (const auto item = item_of(picture, before)) {
+        said += std::stoul(item->label.substr(before.size()));
+        EXPECT_EQ(item->colours.front(), look.rgb());
+      }
+    }
+    EXPECT_EQ(said, seen_rejected);
+    most_unseen = std::max(most_unseen, unseen);
+  }
+  EXPECT_EQ(most_unseen, planned().candidates.size());  // nothing is behind the camera's back
+}
+
+TEST(CandidatesPicture, TheLegendNamesWhatIsThereAndNothingElse) {
+  Plan plan = planned();
+  const std::size_t chosen = plan.chosen.at(0);
   for (Candidate& candidate : plan.candidates) {
     candidate.sampler = Sampler::agvs;
     candidate.cluster = -1;
-  }
-  ASSERT_TRUE(!plan.chosen.empty());
-  const Picture without = drawn_with(plan);
-  EXPECT_FALSE(item_of(without, "frontier"));
-  const std::size_t other = plan.chosen.front() == 0 ? 1 : 0;
-  plan.candidates[other].sampler = Sampler::fvs;
-  plan.candidates[other].cluster = 0;
-  const Picture with = drawn_with(plan);
-  EXPECT_TRUE(item_of(with, "frontier"));
-  EXPECT_FALSE(item_of(with, "cluster looked at"));  // the chosen view is one of the grid
-  for (const std::size_t panel : {0U, 1U}) {
-    EXPECT_GT(with.panels[panel].scene.surfaces.size(),
-              without.panels[panel].scene.surfaces.size());
-  }
-  EXPECT_GT(with.panels[0].labels.size(), 0U);
-  EXPECT_EQ(with.panels[1].labels.size(), 0U);  // from near, they would hide the chosen view
-  plan.candidates[plan.chosen.front()].sampler = Sampler::fvs;
-  plan.candidates[plan.chosen.front()].cluster = 0;
-  EXPECT_TRUE(item_of(drawn_with(plan), "cluster looked at"));
-}
-
-/// A bar from a number to itself would say nothing; and what the picture does not hold is the
-/// note's to say.
-TEST(CandidatesPicture, TheLegendSaysWhatCanBeFound) {
-  Plan plan = watched().plans[kAsked - 1];
-  for (Candidate& candidate : plan.candidates) {
-    if (&candidate == &plan.candidates[plan.chosen.front()]) continue;
     candidate.rejected = Rejection::recently_visited;
   }
-  plan.candidates[plan.chosen.front()].score.value = 1.23;
-  RenderView away;
-  away.T_world_camera.translate(Vec3(0, 0, 1000));  // and looks up
-  const Picture picture = drawn_with(plan, away);
-  const std::optional<LegendItem> valid = item_of(picture, "valid: 1, utility 1.23");
+  plan.candidates[chosen].rejected.reset();
+  plan.candidates[chosen].score.value = 1.23;
+  RunSource run = source();
+  const RenderView view = view_of(kCandidatesPicture, run, asked());
+  const Picture grid = drawn_with(plan, view);
+  const auto valid = item_of(grid, "valid: 1, utility 1.23");  // a bar would say nothing
   ASSERT_TRUE(valid.has_value());
   EXPECT_EQ(valid->colours, std::vector<Rgb>{score_colours().back()});
-  EXPECT_TRUE(item_of(drawn_with(plan), "unknown"));
-  const OccupancyGrid& grid = watched().beliefs[kAsked - 1].grid;
-  const SurfaceItem unknown = free_faces(grid, sort_voxels(grid).unknown, {1, 1, 1}, 0.5F);
-  EXPECT_FALSE(is_seen(unknown, grid, away));
+  EXPECT_TRUE(item_of(grid, "occupied"));
+  EXPECT_FALSE(item_of(grid, "frontier"));
+  // whoever was chosen in the end: what was sampled around clusters shows them
+  Candidate& other = plan.candidates[chosen == 0 ? 1 : 0];
+  other.sampler = Sampler::fvs;
+  other.cluster = 0;
+  const Picture frontiers = drawn_with(plan, view);
+  EXPECT_GT(frontiers.panels[0].scene.surfaces.size(), grid.panels[0].scene.surfaces.size());
+  EXPECT_TRUE(item_of(frontiers, "frontier"));
+  EXPECT_FALSE(item_of(frontiers, "frontier looked at"));  // the chosen view is one of the grid
+  RenderView away;
+  away.T_world_camera.translate(Vec3(0, 0, 1000));  // and looks up
+  for (const Look& look : {looks::kOccupied, looks::kUnknown, looks::kFrontier, looks::kRayHit}) {
+    EXPECT_FALSE(item_of(drawn_with(plan, away), look.words)) << look.words;
+  }
 }
 
-/// How much of a decision a picture from there would show, its own candidates being all valid.
-std::size_t shown_from(RunSource& run, const PictureOptions& options, const ViewAngles& angles) {
-  std::vector<Vec3> points_m;
-  frame_candidates(run, options, points_m);
-  const RenderView view = frame_points(points_m, angles, 640, 480);
-  const ReplayedDecision& decision = run.decision(kAsked);
-  const auto& candidates = decision.plan.candidates;
-  return static_cast<std::size_t>(
-      std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
-        return !is_hidden(decision.belief.grid, view, candidate.view.p_world_m, 0.0);
-      }));
-}
-
-/// Whatever side of what the map knows the candidates are on, the picture is taken from there.
+/// Whatever side of what the map knows the candidates are on, no direction around shows more.
 TEST(CandidatesPicture, IsSeenFromWhereTheMostCandidatesShow) {
-  PictureOptions options;
-  options.iteration = kAsked;
+  const Box3 structure_m = bounds_m(watched().flown.world.structure);
   std::size_t worse = 0;
   for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)}) {
-    Plan plan = watched().plans[kAsked - 1];
-    const Box3 structure_m = bounds_m(watched().flown.world.structure);
-    constexpr double kBeside_m = 0.4;
+    Plan plan = planned();
+    const Vec3 half_m = 0.5 * structure_m.sizes().array() + 0.4;
     for (Candidate& candidate : plan.candidates) {
-      const Vec3 half_m = 0.5 * structure_m.sizes().array() + kBeside_m;
       candidate.view.p_world_m = structure_m.center() + half_m.cwiseProduct(side);
       candidate.rejected.reset();
     }
     const TempFolder temp;
     write_candidates(plan, temp.path());
     RunSource run = source(temp.path());
-    RunSource* const runs[] = {&run};
-    const ViewAngles best = angles_to_candidates(runs, options);
-    for (int turn_deg = 0; turn_deg < 360; turn_deg += 45) {
-      const ViewAngles angles{ViewAngles{}.azimuth_rad + deg_to_rad(turn_deg)};
-      EXPECT_LE(shown_from(run, options, angles), shown_from(run, options, best)) << turn_deg;
-      worse += shown_from(run, options, angles) < shown_from(run, options, best) ? 1 : 0;
-    }
-    // and the picture is, unless the user says from where
-    const auto azimuth_rad = [&](const PictureOptions& asked) {
-      const Vec3 back =
-          -lay_out(kCandidatesPicture, runs, asked).view.T_world_camera.matrix().block<3, 1>(0, 2);
-      return std::atan2(back.y(), back.x());
+    const auto shown = [&](const PictureOptions& options) {
+      const RenderView view = view_of(kCandidatesPicture, run, options);
+      return std::count_if(plan.candidates.begin(), plan.candidates.end(), [&](const auto& c) {
+        return shows(view, run.decision(kAsked).belief.grid, c.view.p_world_m, 0.0);
+      });
     };
-    PictureOptions turned = options;
-    turned.angles = {best.azimuth_rad + 1.0, best.elevation_rad};
-    EXPECT_NEAR(wrap_angle_rad(azimuth_rad(options) - best.azimuth_rad), 0.0, 1e-9);
-    EXPECT_NEAR(wrap_angle_rad(azimuth_rad(turned) - best.azimuth_rad), 1.0, 1e-9);
+    for (int turn_deg = 0; turn_deg < 360; turn_deg += 45) {
+      PictureOptions turned = asked();
+      turned.angles = ViewAngles{ViewAngles{}.azimuth_rad + deg_to_rad(turn_deg)};
+      EXPECT_LE(shown(turned), shown(asked())) << turn_deg;
+      worse += shown(turned) < shown(asked()) ? 1 : 0;
+    }
   }
   EXPECT_GT(worse, 0U);
 }
 
+TEST(CandidatesPicture, TheFirstViewWasChosenByNothing) {
+  RunSource run = source();
+  PictureOptions options;
+  options.iteration = 0;
+  EXPECT_THROW(kCandidatesPicture.draw(run, options, {}), BadInput);
+}
+
+/// What a page draws by name has a name of its own, and a layer that there is.
+TEST(Looks, HaveNamesOfTheirOwnAndKnownLayers) {
+  std::set<std::string_view> names, layers{""};
+  for (const SceneLayer& layer : scene_layers()) EXPECT_TRUE(layers.insert(layer.name).second);
+  for (const Look* const look : all_looks()) {
+    EXPECT_TRUE(names.insert(look->name).second) << look->name;
+    EXPECT_TRUE(layers.contains(look->layer)) << look->name;
+  }
+}
+
 /// Hues alone would not do for everybody: Oklab distances (Ottosson 2020).
-TEST(CandidatesPicture, TheColoursOfReasonsAndMarksStandApart) {
-  std::vector<Rgb> colours = {kChosenLook.chosen, kChosenLook.hit};
+TEST(Looks, TheColoursOfReasonsAndMarksStandApart) {
+  std::vector<Rgb> colours = {looks::kChosen.rgb(), looks::kRayHit.rgb()};
   for (const RejectionLook& look : rejection_looks()) {
     EXPECT_EQ(static_cast<std::size_t>(look.rejection), colours.size() - 2);  // in their order
-    colours.push_back(look.colour);
+    colours.push_back(look.rgb());
   }
   const auto oklab = [](const Rgb& c) {
     const Vec3 rgb(c[0], c[1], c[2]);
@@ -376,6 +288,100 @@ TEST(CandidatesPicture, TheColoursOfReasonsAndMarksStandApart) {
       EXPECT_GT((oklab(colours[i]) - oklab(colours[k])).norm(), kApart) << i << " and " << k;
     }
   }
+}
+
+/// From that side of the middle of the map, as far away as shows all of it.
+RenderView view_along(const OccupancyGrid& grid, const Vec3& from) {
+  const GridGeometry& geometry = grid.geometry();
+  const Vec3 middle_m =
+      geometry.center_m(geometry.key_at(static_cast<VoxelIndex>(geometry.voxel_count() / 2)));
+  RenderView view;
+  view.T_world_camera = look_at(middle_m + 100.0 * from, middle_m);
+  return view;
+}
+
+/// Against a ray from each voxel's middle in much finer steps.
+TEST(Voxels, HideWhatIsBehindThemAndNothingElse) {
+  const OccupancyGrid& grid = watched().beliefs.back().grid;
+  const double beside_m = 3.0 * grid.geometry().resolution_m();
+  for (const Vec3& axis : {Vec3(0.01, 0, 1), Vec3(1, 0, 0.01), Vec3(0, -1, 0.01)}) {
+    const RenderView view = view_along(grid, axis);
+    std::size_t hidden = 0;
+    std::size_t shown = 0;
+    std::size_t all = 0;
+    for (const VoxelIndex v : sort_voxels(grid).occupied) {
+      const Vec3 p_m = grid.geometry().center_m(grid.geometry().key_at(v));
+      const Vec3 away_m = view.T_world_camera.translation() - p_m;
+      bool is_covered = false;
+      for (double t = beside_m; t < away_m.norm(); t += 0.01) {
+        is_covered |= grid.state_at(p_m + t * away_m.normalized()) == VoxelState::occupied;
+      }
+      const bool is_shown = shows(view, grid, p_m, beside_m);
+      EXPECT_TRUE(is_shown || is_covered);
+      ++all;
+      if (is_covered != is_shown) ++(is_shown ? shown : hidden);
+    }
+    EXPECT_GT(hidden + shown, 9 * all / 10);  // not where a corner is in the way
+    EXPECT_GT(shown, 0U);
+  }
+}
+
+TEST(Frontiers, TheChosenClusterStandsOutAndNumbersAreWhereTheirClustersShow) {
+  const FrontierConfig& config = watched().flown.scenario.planner.fvs.frontier;
+  const Belief& belief = watched().beliefs.back();
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  const auto found = find_frontiers(config, belief.grid, belief.cloud, marks);
+  ASSERT_GE(found.size(), 2U);
+  ReplayedDecision decision{.belief = belief, .plan = {}};
+  decision.plan.chosen = {0};
+  for (const std::size_t first : {std::size_t{0}, found.size() - 1}) {
+    decision.plan.clusters = {found[first]};  // the others may not be tried
+    decision.plan.candidates = {{.view = {}, .sampler = Sampler::fvs, .cluster = 0}};
+    Panel panel;
+    add_frontiers(config, decision, 0.1, {}, panel);
+    EXPECT_EQ(panel.scene.surfaces.size(), found.size());
+    const SurfaceItem& chosen = panel.scene.surfaces.front();
+    EXPECT_EQ(chosen.vertex_colours.front(), looks::kLookedAt.rgb());
+    Box3 cube_m;  // the map's own cubes may fill their voxels, and do not hide it
+    for (std::size_t i = 0; i < 24; ++i) cube_m.extend(chosen.mesh.vertices_m[i].cast<double>());
+    EXPECT_GT(cube_m.volume(), 1.001 * std::pow(belief.grid.geometry().resolution_m(), 3.0));
+  }
+  decision.plan.clusters = found;
+  decision.plan.candidates.at(0).cluster = static_cast<int>(found.size()) - 1;
+  std::size_t most = 0;
+  for (const Vec3& from : {Vec3(0.01, 0, 1), Vec3(1, 0, 0.2), Vec3(-1, 0, 0.2), Vec3(0, 1, 0.2)}) {
+    const RenderView view = view_along(belief.grid, from);
+    Panel panel;
+    add_frontiers(config, decision, 0.1, view, panel);
+    const auto in_sight = static_cast<std::size_t>(
+        std::count_if(found.begin(), found.end(), [&](const FrontierCluster& cluster) {
+          return shows(view, belief.grid, cluster.centroid_world_m,
+                       3.0 * belief.grid.geometry().resolution_m());
+        }));
+    EXPECT_EQ(panel.labels.size(), in_sight);
+    most = std::max(most, in_sight);
+  }
+  EXPECT_GE(most, 2U);
+}
+
+TEST(PlaceMarks, NoBadgeLiesOnAnother) {
+  RenderView view;
+  view.width_px = 400;
+  view.height_px = 300;
+  view.T_world_camera = look_at({0, -10, 0}, {0, 0, 0});
+  const auto badge_px = [&](std::initializer_list<double> places) {
+    Panel panel;
+    for (const double x : places) panel.labels.push_back({Vec3(x, 0, 0), "1", srgb(0x005ac8)});
+    Image image{400, 300, std::vector<std::uint8_t>(3 * 400 * 300, 200)};
+    draw_place_marks(panel, view, 1.0, true, image);
+    int count = 0;
+    for (int y = 0; y < 300; ++y) {
+      for (int x = 0; x < 400; ++x) count += image.at(x, y) == Rgb8{0, 0x5a, 0xc8} ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(badge_px({0.0, 0.1}), badge_px({0.0}));
+  EXPECT_NEAR(badge_px({0.0, 1.0}), 2 * badge_px({0.0}), 0.2 * badge_px({0.0}));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/run/cloud_file.hpp"
@@ -27,8 +28,7 @@ TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
   write_cloud_ply(points, temp.path() / "cloud.ply");
   write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
   RunSource run = source(temp.path());
-  RunSource* const runs[] = {&run};
-  const RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  const RenderView view = view_of(kCoveragePicture, run);
   const Picture picture = kCoveragePicture.draw(run, {}, view);
   ASSERT_EQ(picture.panels.size(), 2U);
   const SurfaceItem& cubes = picture.panels[0].scene.surfaces.at(0);
@@ -64,8 +64,7 @@ TEST(CoveragePicture, DrawsNoVoxelsSmallerThanAPixelAndAHalf) {
   const TempFolder temp;
   write_clouds(temp.path());
   RunSource run = source(temp.path());
-  RunSource* const runs[] = {&run};
-  RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  RenderView view = view_of(kCoveragePicture, run);
   const Picture near = kCoveragePicture.draw(run, {}, view);
   EXPECT_EQ(near.detail.find("drawn in"), std::string::npos);
   view.focus_m *= 0.05 * px_per_m_at_focus(view);  // to a pixel a voxel
@@ -86,7 +85,7 @@ TEST(CoveragePicture, SecondPanelsOfSeveralRunsLookTheSameWay) {
   RunSource run = source(temp.path());
   RunSource other = source(temp.path());
   RunSource* const runs[] = {&run, &other};
-  const RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  const RenderView view = view_of(kCoveragePicture, run);
   EXPECT_FALSE(with_shared_angles(kCoveragePicture, std::span(runs).first(1), {}, view)
                    .second_angles.has_value());
   PictureOptions shared = with_shared_angles(kCoveragePicture, runs, {}, view);
@@ -95,13 +94,11 @@ TEST(CoveragePicture, SecondPanelsOfSeveralRunsLookTheSameWay) {
     return kCoveragePicture.draw(of, shared, view).panels[1].view->T_world_camera.matrix();
   };
   EXPECT_EQ(pose(run), pose(other));
-  // said as by somebody who looks along the first panel
-  const double azimuth_rad = ViewAngles{}.azimuth_rad;
-  for (const auto& [turn_deg, words] : {std::pair{90.0, "from the right"},
-                                        {-90.0, "from the left"},
-                                        {180.0, "from behind"},
-                                        {-135.0, "from behind on the left"}}) {
-    shared.second_angles = {azimuth_rad + deg_to_rad(turn_deg), 0.1};
+  for (const auto& [azimuth_deg, words] : {std::pair{0.0, "from the east"},
+                                           {90.0, "from the north"},
+                                           {-135.0, "from the south-west"},
+                                           {190.0, "from the west"}}) {
+    shared.second_angles = {deg_to_rad(azimuth_deg), 0.1};
     const std::string note = kCoveragePicture.draw(run, shared, view).panels[1].note;
     EXPECT_NE(note.find(fmt::format(" in sight {};", words)), std::string::npos) << note;
   }
@@ -131,8 +128,7 @@ TEST(CoveragePicture, NotesCountWhatTheirPanelsShow) {
   const TempFolder temp;
   write_clouds(temp.path());
   RunSource run = source(temp.path());
-  RunSource* const runs[] = {&run};
-  const RenderView view = lay_out(kCoveragePicture, runs, {}).view;
+  const RenderView view = view_of(kCoveragePicture, run);
   const Picture picture = kCoveragePicture.draw(run, {}, view);
   const SurfaceReference& reference = run.reference();
   const double size_m = kCoverageSizes_m.front();

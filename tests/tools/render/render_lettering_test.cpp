@@ -20,9 +20,9 @@ namespace {
 
 const Image kBlank{200, 40, std::vector<std::uint8_t>(200 * 40 * 3, 255)};
 
-Image drawn(std::string_view text, double halo_px = 0.0) {
+Image drawn(std::string_view text) {
   Image image = kBlank;
-  draw_text(image, text, 50.0, 30.0, 20.0, {0, 0, 0}, halo_px);
+  draw_text(image, text, 50.0, 30.0, 20.0, {0, 0, 0});
   return image;
 }
 
@@ -50,8 +50,8 @@ TEST(Lettering, InkStaysWithinItsWidthAndThePicture) {
     EXPECT_EQ(inked == 0, c == ' ') << text;
   }
   Image image = kBlank;
-  draw_text(image, "clipped, \xc3\xa9", 185.0, 5.0, 30.0, {0, 0, 0}, 3.0);  // no other memory
-  draw_text(image, "above and to the left", -40.0, -3.0, 30.0, {0, 0, 0}, 3.0);
+  draw_text(image, "clipped, \xc3\xa9", 185.0, 5.0, 30.0, {0, 0, 0});  // no other memory
+  draw_text(image, "above and to the left", -40.0, -3.0, 30.0, {0, 0, 0});
   draw_line(image, {-50.0, -50.0}, {500.0, 90.0}, 3.0, {0, 0, 0});
   EXPECT_NE(image.rgb, kBlank.rgb);
 }
@@ -82,26 +82,6 @@ TEST(Lettering, EveryCodePointIsItsOwnLetter) {
   EXPECT_NE(drawn("a\xff").rgb, drawn("a").rgb);
 }
 
-TEST(Lettering, TheHaloIsWhereALetterIsNearAndNowhereElse) {
-  constexpr double kHalo_px = 6.0;
-  const Image letter = drawn("K");
-  const Image both = drawn("K", kHalo_px);
-  for (int y = 0; y < 40; ++y) {
-    for (int x = 35; x < 95; ++x) {
-      double distance_px = 100.0;  // to a pixel that is more than half covered
-      for_each_difference(letter, kBlank, [&](int u, int v) {
-        if (letter.at(u, v)[0] < 128) distance_px = std::min(distance_px, std::hypot(u - x, v - y));
-      });
-      const int grey = both.at(x, y)[0];
-      const bool is_near = distance_px > 1.5 && distance_px < kHalo_px - 1.0;
-      EXPECT_TRUE(distance_px <= kHalo_px + 2.0 || grey == 255) << x << ' ' << y << ' ' << grey;
-      EXPECT_TRUE(!is_near || (grey > 200 && grey < 240))
-          << x << ' ' << y << ' ' << grey;  // of 228
-      EXPECT_TRUE(distance_px > 0.0 || grey < 128) << x << ' ' << y << ' ' << grey;
-    }
-  }
-}
-
 TEST(Lettering, LongTextsFit) {
   const std::string title(200, 'W');
   const double height_px = fitting_height_px(title, 15.0, 500.0);
@@ -130,40 +110,13 @@ TEST(Lettering, WhatIsNoFontIsNamed) {
   unsetenv("GNBV_FONT");
 }
 
-/// However small the picture and long the words, the scale can be read.
-TEST(Caption, NoLegendLiesOnTheScale) {
-  const auto drawn = [](int width_px, const std::vector<LegendItem>& legend) {
-    Image image{width_px, 240, {}};
-    image.rgb.assign(static_cast<std::size_t>(3 * width_px * image.height_px), 255);
-    RenderView view;
-    view.width_px = width_px;
-    view.height_px = image.height_px;
-    draw_caption(image, {.title = "t", .detail = "d", .legend = legend}, view);
-    return image;
-  };
-  const LegendItem bar{
-      .label = "216 or more points a voxel", .colours = path_colours(), .label_before = "1"};
-  for (const int width_px : {320, 330, 340, 420, 640}) {
-    const Image scale = drawn(width_px, {});
-    const Image both = drawn(width_px, {bar, {"covered", {srgb(0x123456)}}, bar});
-    for (int y = 120; y < 240; ++y) {
-      for (int x = 0; x < width_px; ++x) {
-        if (scale.at(x, y) == Rgb8{255, 255, 255}) continue;
-        EXPECT_EQ(both.at(x, y), scale.at(x, y)) << width_px << ": " << x << ' ' << y;
-      }
-    }
-  }
-}
-
 /// The legend of panels is read as a text is: groups begin rows at the left, all of it on its
 /// paper.
 TEST(Caption, OnPaperGroupsBeginRowsAtTheLeft) {
   const auto drawn = [](const std::vector<LegendItem>& legend) {
     Image image{640, 360, {}};
     image.rgb.assign(static_cast<std::size_t>(3 * 640 * 360), 255);
-    draw_caption(image,
-                 {.title = "", .detail = "", .legend = legend, .has_scale = false, .paper_px = 60},
-                 {});
+    draw_caption(image, {.title = "", .detail = "", .legend = legend, .paper_px = 60});
     return image;
   };
   const auto rows_of = [](const Image& image, const Rgb8& colour) {
@@ -197,9 +150,7 @@ TEST(Caption, ABarsMiddleStandsUponIt) {
     Image image{640, 360, {}};
     image.rgb.assign(static_cast<std::size_t>(3 * 640 * 360), 200);
     const LegendItem bar{.label = "", .colours = {colour, colour}, .label_middle = middle};
-    draw_caption(image,
-                 {.title = "", .detail = "", .legend = {bar}, .has_scale = false, .paper_px = 60},
-                 {});
+    draw_caption(image, {.title = "", .detail = "", .legend = {bar}, .paper_px = 60});
     return image;
   };
   const auto columns_of = [](const Image& image, const Rgb8& colour) {
@@ -243,13 +194,7 @@ TEST(Caption, LettersAreAsLargeAsAskedFor) {
     Image image{1280, 720, {}};
     image.rgb.assign(static_cast<std::size_t>(3 * 1280 * 720), 255);
     draw_caption(image,
-                 {.title = "",
-                  .detail = "H",
-                  .legend = {},
-                  .has_scale = false,
-                  .letters = letters,
-                  .paper_px = 60},
-                 {});
+                 {.title = "", .detail = "H", .legend = {}, .letters = letters, .paper_px = 60});
     int first = 720;
     int last = 0;
     for (int y = 0; y < 720; ++y) {

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "sim/core/error.hpp"
-#include "tools/render/point_normals.hpp"
-#include "tools/render/scene.hpp"
-#include "tools/render/voxel_items.hpp"
+#include "tools/render/renderer.hpp"
+#include "tools/scene/point_normals.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
 
+#include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/render/movie.hpp"
+#include "tools/render/film.hpp"
 
 namespace gnbv {
 namespace {
@@ -17,15 +20,13 @@ Image grey(int width_px, int height_px) {
           std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width_px * height_px), 128)};
 }
 
-bool has_ffmpeg() { return std::system("command -v ffmpeg >/dev/null") == 0; }
-
-TEST(Movie, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
+TEST(Film, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
   if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
   const TempFolder temp;
   const fs::path before = fs::current_path();
   fs::current_path(temp.path());
   for (const char* const name : {"http:film.mp4", "-film.mp4"}) {
-    Movie movie(name, 32, 24, 24);
+    Film movie(name, 32, 24, 24);
     movie.add(grey(32, 24));
     EXPECT_FALSE(fs::exists(name));
     movie.finish();
@@ -35,70 +36,85 @@ TEST(Movie, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
   EXPECT_EQ(std::distance(fs::directory_iterator(temp.path()), {}), 2);  // no parts are left
 }
 
-/// What a browser shows of an APNG, image by image: patches laid over what was there.
-std::vector<Image> images_of(const std::string& apng) {
-  std::vector<Image> images;
-  const auto number = [](const std::string& bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-      value = (value << 8) | static_cast<std::uint8_t>(bytes[at + k]);
-    return static_cast<int>(value);
+bool has_pillow() {
+  return std::system((python_program() + " -c 'import PIL' 2>/dev/null").c_str()) == 0;
+}
+
+/// What Pillow says of a file: images, width, height, milliseconds of all, the red of a pixel of
+/// the first and the last.
+std::string told_by_pillow(const fs::path& film) {
+  ChildProcess pillow({python_program(), "-c", R"(
+import sys
+from PIL import Image
+film = Image.open(sys.argv[1])
+length, reds = 0, []
+for i in range(film.n_frames):
+    film.seek(i)
+    film.load()
+    length += film.info["duration"]
+    reds.append(film.convert("RGB").getpixel((7, 5))[0])
+print(film.n_frames, *film.size, round(length), reds[0], reds[-1])
+)",
+                       film.string()},
+                      {.out = ChildStream::pipe});
+  return pillow.read_line();
+}
+
+TEST(Film, OfPillowHoldsEveryImageAndRepeatsByteForByte) {
+  if (!has_pillow()) GTEST_SKIP() << "no Pillow";
+  const TempFolder temp;
+  for (const char* const name : {"film.apng", "film.webp"}) {
+    std::string bytes;
+    for (const bool is_again : {false, true}) {
+      Film film(temp.path() / name, 32, 24, 20);
+      Image image = grey(32, 24);
+      film.add(image);
+      for (int i = 0; i < 3; ++i) image.rgb[3 * (32 * 5 + 7) + static_cast<std::size_t>(i)] = 9;
+      film.add(image);
+      EXPECT_EQ(fs::exists(temp.path() / name), is_again);
+      film.finish();
+      EXPECT_TRUE(!is_again || read_file(temp.path() / name) == bytes) << name;
+      bytes = read_file(temp.path() / name);
+    }
+    EXPECT_EQ(told_by_pillow(temp.path() / name), "2 32 24 100 128 9") << name;
+  }
+}
+
+TEST(Film, HalfWrittenLeavesNothing) {
+  const TempFolder temp;
+  for (const char* const name : {"film.gif", "film.mp4"}) {
+    if (std::string(name) == "film.gif" ? !has_pillow() : !has_ffmpeg()) continue;
+    Film film(temp.path() / name, 32, 24, 24);
+    film.add(grey(32, 24));
+  }
+  EXPECT_TRUE(fs::is_empty(temp.path()));
+}
+
+/// One line, before anything is drawn, that says what to install.
+TEST(Film, NamesWhatIsMissing) {
+  const TempFolder temp;
+  const auto complaint = [&](const char* name) -> std::string {
+    try {
+      const Film film(temp.path() / name, 32, 24, 24);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
   };
-  const std::string controls = png_chunks(apng, "fcTL");
-  constexpr std::size_t kControl = 26;
-  for (std::size_t i = 0; i < controls.size() / kControl; ++i) {
-    const std::string control = controls.substr(kControl * i, kControl);
-    images.push_back({number(control, 4), number(control, 8), {}});
-  }
-  return images;
-}
-
-TEST(Movie, AnimatedPngNeedsNoFfmpegAndHoldsEveryImage) {
-  const TempFolder temp;
-  const fs::path path = temp.path() / "film.apng";
-  Movie movie(path, 32, 24, 24);
-  Image image = grey(32, 24);
-  movie.add(image);
-  for (int i = 0; i < 3; ++i) image.rgb[3 * (32 * 5 + 7) + static_cast<std::size_t>(i)] = 9;
-  movie.add(image);
-  movie.add(image);  // nothing moves, time does
-  EXPECT_FALSE(fs::exists(path));
-  movie.finish();
-  const std::string apng = read_file(path);
-  const std::vector<Image> images = images_of(apng);
-  ASSERT_EQ(images.size(), 3U);
-  EXPECT_EQ(images[0].width_px, 32);
-  EXPECT_EQ(images[1].width_px, 1);  // the pixel that changed
-  EXPECT_EQ(images[1].height_px, 1);
-  // who knows no animation sees the first image
-  EXPECT_EQ(read_png(path).rgb, grey(32, 24).rgb);
-}
-
-TEST(Movie, HalfWrittenLeavesNothing) {
-  if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
-  const TempFolder temp;
-  {
-    Movie movie(temp.path() / "film.gif", 32, 24, 24);
-    movie.add(grey(32, 24));
-  }
-  EXPECT_TRUE(fs::is_empty(temp.path()));
-}
-
-TEST(Movie, WithoutFfmpegNamesThePackage) {
-  const TempFolder temp;
-  const char* const path = std::getenv("PATH");
-  const std::string before = path == nullptr ? "" : path;
+  const std::string path = std::getenv("PATH");
+  const std::string python = python_program();
   ::setenv("PATH", temp.path().c_str(), 1);
-  std::string complaint;
-  try {
-    const Movie movie(temp.path() / "film.mp4", 32, 24, 24);
-  } catch (const BadInput& error) {
-    complaint = error.what();
-  }
-  ::setenv("PATH", before.c_str(), 1);
-  EXPECT_NE(complaint.find("Debian package ffmpeg"), std::string::npos);
-  EXPECT_TRUE(fs::is_empty(temp.path()));
-  EXPECT_THROW(Movie(temp.path() / "film.avi", 32, 24, 24), BadInput);
+  EXPECT_NE(complaint("film.mp4").find("Debian package ffmpeg"), std::string::npos);
+  ::setenv("PATH", path.c_str(), 1);
+  ::setenv("GNBV_PYTHON", "/nowhere/python", 1);
+  EXPECT_NE(complaint("film.apng").find("Debian package python3-pil"), std::string::npos);
+  // a Python that knows no Pillow
+  write_file_atomically(temp.path() / "bare", "#!/bin/sh\nexec python3 -I -S \"$@\"\n");
+  fs::permissions(temp.path() / "bare", fs::perms::owner_all);
+  ::setenv("GNBV_PYTHON", (temp.path() / "bare").c_str(), 1);
+  EXPECT_NE(complaint("film.webp").find("Debian package python3-pil"), std::string::npos);
+  ::setenv("GNBV_PYTHON", python.c_str(), 1);
+  EXPECT_NE(complaint("film.avi").find("film.avi"), std::string::npos);
 }
 
 }  // namespace

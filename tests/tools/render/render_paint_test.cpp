@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "sim/mesh/triangle_mesh.hpp"
-#include "tools/render/paint.hpp"
+#include "tools/render/renderer.hpp"
+#include "tools/scene/structure.hpp"
 
 namespace gnbv {
 namespace {
@@ -21,7 +22,9 @@ World checked_box() {
 }
 
 RenderView view_of(const World& world) {
-  return frame_box(bounds_m(world.structure), {deg_to_rad(30.0), deg_to_rad(25.0)}, 160, 120);
+  std::vector<Vec3> corners_m;
+  for (const Vec3f& v : world.structure.vertices_m) corners_m.push_back(v.cast<double>());
+  return frame_points(corners_m, {deg_to_rad(30.0), deg_to_rad(25.0)}, 160, 120);
 }
 
 const std::uint8_t* texel(const PaintItem& paint, int column, int row) {

@@ -5,15 +5,15 @@
 
 #include "tests/support/made_run.hpp"
 #include "tests/tools/render/cube.hpp"
-#include "tools/render/flight_items.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tools/render/pictures.hpp"
+#include "tools/scene/flight.hpp"
 
 namespace gnbv {
 namespace {
 
 RenderScene path_scene(RunSource& run, const PictureOptions& options) {
-  RunSource* const runs[] = {&run};
-  const PanelLayout layout = lay_out(kPathPicture, runs, options);
+  const PanelLayout layout = layout_of(kPathPicture, run, options);
   return kPathPicture.draw(run, options, layout.view).panels.at(0).scene;
 }
 
@@ -68,8 +68,7 @@ TEST(PathPicture, TheFlightHasTheColourOfTheViewsThatItPasses) {
 /// However much lies before them.
 TEST(PathPicture, StartAndEndAreMarkedOverEverything) {
   RunSource run(made_record(), cube());
-  RunSource* const runs[] = {&run};
-  const RenderView view = lay_out(kPathPicture, runs, {}).view;
+  const RenderView view = view_of(kPathPicture, run);
   const Panel panel = kPathPicture.draw(run, {}, view).panels.at(0);
   ASSERT_EQ(panel.lines.size(), 2U);
   ASSERT_EQ(panel.labels.size(), 2U);
@@ -143,8 +142,7 @@ TEST(PathPicture, RunsAroundAnotherSurfaceOnRequest) {
     item.mesh.faces = {{0, 1, 2}};
     return item;
   };
-  RunSource* const runs[] = {&run};
-  const RenderView view = lay_out(kPathPicture, runs, options).view;
+  const RenderView view = view_of(kPathPicture, run, options);
   const RenderScene scene = path_scene(run, options);
   EXPECT_NEAR(piece_m * px_per_m_at_focus(view), 2.0, 1e-9);
   ASSERT_EQ(scene.surfaces.size(), 1U);

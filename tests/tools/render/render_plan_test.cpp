@@ -1,5 +1,6 @@
 // Laws of the picture of a tour's plan: it shows the views that are to come, and what was seen and
 // flown by then.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,10 +9,11 @@
 #include "sim/core/file.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/render/flight_items.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/file_names.hpp"
+#include "tools/scene/flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -40,11 +42,10 @@ TEST(PlanPicture, ShowsWhatIsToComeAmongWhatWasSeen) {
   FlownTour tour;
   const RunRecord& record = tour.run.record();
   ASSERT_EQ(record.views.size(), 6U);
-  RunSource* const runs[] = {&tour.run};
   for (const int after : {0, 2, 4}) {
     PictureOptions options;
     options.iteration = after;
-    const RenderView view = lay_out(kPlanPicture, runs, options).view;
+    const RenderView view = view_of(kPlanPicture, tour.run, options);
     const Picture picture = kPlanPicture.draw(tour.run, options, view);
     const RenderScene& scene = picture.panels.at(0).scene;
     const ViewRecord& here = record.views[static_cast<std::size_t>(after)];
@@ -52,6 +53,11 @@ TEST(PlanPicture, ShowsWhatIsToComeAmongWhatWasSeen) {
     const auto standing =
         standing_plan(tour.flown.result.tour_plans, record, static_cast<std::size_t>(after));
     ASSERT_FALSE(standing->views().empty());
+    // people count views from 1
+    const auto n = static_cast<std::size_t>(after);
+    EXPECT_TRUE(picture.detail.starts_with("after " + views_so_far(record, n) + ": "));
+    EXPECT_TRUE(picture.legend.back().label.ends_with(
+        fmt::format("when view {} was planned", standing->made->iteration + 1)));
     EXPECT_EQ(scene.balls.size(), 1 + standing->views().size());  // the vehicle, and each view
     EXPECT_EQ(scene.surfaces.at(0).mesh.vertices_m.size(), 8 * standing->made->plan.cubes.size());
     // the pyramid of the next view is the one that it had when it was flown

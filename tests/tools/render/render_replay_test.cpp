@@ -10,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/render/picture.hpp"
@@ -17,6 +18,7 @@
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
@@ -149,22 +151,32 @@ TEST(RunSource, ADecisionThatIsReadHasTheClustersThatItTried) {
   EXPECT_GT(compared, 1U);
 }
 
+/// And the picture shows all of each, though cubes stick out of the structure.
 TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
   RunSource run = source();
   PictureOptions options;
   options.iteration = kAsked;
-  const RenderScene scene = kVoxelsPicture.draw(run, options, {}).panels.at(0).scene;
+  const RenderView view = view_of(kVoxelsPicture, run, options);
+  const RenderScene scene = kVoxelsPicture.draw(run, options, view).panels.at(0).scene;
   const OccupancyGrid& grid = watched().beliefs[kAsked].grid;
   ASSERT_EQ(scene.surfaces.size(), 3U);  // occupied, predicted, unknown
   EXPECT_EQ(scene.surfaces[0].mesh.faces.size(), 12U * grid.occupied_count());
   EXPECT_EQ(scene.surfaces[1].mesh.faces.size(), 12U * grid.predicted_count());
+  const std::vector<Rgb> colour = {Rgb{}};
+  for (const Vec3f& v : run.world().structure.vertices_m) {
+    const VoxelIndex voxel =
+        grid.geometry().index_of(grid.geometry().key_of(Vec3(v.cast<double>())));
+    for (const Vec3f& corner_m :
+         voxel_cubes(grid.geometry(), std::array{voxel}, colour).mesh.vertices_m) {
+      EXPECT_TRUE(is_within(view, corner_m.cast<double>()));
+    }
+  }
 }
 
 /// Each panel shows the whole box and each waypoint that was flown by then, with its number on it.
 TEST(ProfilePicture, FramesTheBoxAndNumbersTheWaypointsOnTheSpot) {
   RunSource run = source();
-  RunSource* const runs[] = {&run};
-  const RenderView view = lay_out(kProfilePicture, runs, {}).view;
+  const RenderView view = view_of(kProfilePicture, run);
   const Picture picture = kProfilePicture.draw(run, {}, view);
   const auto is_inside = [&](const Vec3& p_m) {
     const Vec3 p_px = project(view, p_m).value();
@@ -192,12 +204,11 @@ TEST(ProfilePicture, FramesTheBoxAndNumbersTheWaypointsOnTheSpot) {
 
 TEST(ProfilePicture, LinesTakeTheSameShareOfAnyPicture) {
   RunSource run = source();
-  RunSource* const runs[] = {&run};
   const auto share = [&](int times) {
     PictureOptions options;
     options.width_px *= times;
     options.height_px *= times;
-    const RenderView view = lay_out(kProfilePicture, runs, options).view;
+    const RenderView view = view_of(kProfilePicture, run, options);
     const Picture picture = kProfilePicture.draw(run, options, view);
     const auto radius_m = static_cast<double>(picture.panels[0].scene.tubes.front().radius_m);
     return radius_m * px_per_m_at_focus(view) / options.width_px;
@@ -207,9 +218,8 @@ TEST(ProfilePicture, LinesTakeTheSameShareOfAnyPicture) {
 
 TEST(ProfilePicture, IsSeenFromAboveUnlessAnglesAreAskedFor) {
   RunSource run = source();
-  RunSource* const runs[] = {&run};
   const auto down = [&](const PictureKind& kind, const PictureOptions& options) {
-    return -lay_out(kind, runs, options).view.T_world_camera(2, 2);
+    return -view_of(kind, run, options).T_world_camera(2, 2);
   };
   EXPECT_GT(down(kProfilePicture, {}), down(kPathPicture, {}) + 0.1);
   PictureOptions asked;
@@ -235,8 +245,7 @@ TEST(Replay, OneFlightBringsBackWhatThreeDid) {
 
 TEST(Replay, FlightAheadBringsBackWhatOneThatIsWaitedForDoes) {
   RunSource run = source();
-  run.expect_profile();
-  run.expect_belief_after(kAsked + 1);
+  run.expect({.has_profile = true, .belief = kAsked + 1});
   run.fly_ahead();
   run.fly_ahead();  // once more changes nothing
   EXPECT_TRUE(same_belief(run.belief_after(kAsked + 1), watched().beliefs[kAsked + 1]));
@@ -251,7 +260,7 @@ TEST(Replay, FlightAheadThatFailsIsToldToWhoAsks) {
   ++views[1].cloud_points;
   const Flown& flown = watched().flown;
   RunSource run(RunRecord{.folder = {}, .scenario = flown.scenario, .views = views}, flown.world);
-  run.expect_belief_after(kAsked);
+  run.expect({.belief = kAsked});
   EXPECT_NO_THROW(run.fly_ahead());
   EXPECT_THROW(run.belief_after(kAsked), BadInput);
 }

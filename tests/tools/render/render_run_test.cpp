@@ -7,7 +7,7 @@
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/cube.hpp"
-#include "tools/render/camera_choice.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
 
@@ -36,14 +36,13 @@ TEST(Pictures, OneCameraShowsWhatAllRunsHave) {
 
 TEST(Pictures, HaveTheSizeAskedForAndRepeat) {
   RunSource run(made_record(), cube());
-  RunSource* const runs[] = {&run};
   Renderer renderer;
   // the last one is too small for a caption, and still a picture
   for (const auto& [width, height] : {std::pair{480, 270}, {40, 30}}) {
     PictureOptions options;
     options.width_px = width;
     options.height_px = height;
-    const PanelLayout layout = lay_out(kPathPicture, runs, options);
+    const PanelLayout layout = layout_of(kPathPicture, run, options);
     const Image image = draw_picture(kPathPicture, run, options, layout, renderer);
     EXPECT_EQ(image.width_px, width);
     EXPECT_EQ(image.height_px, height);
@@ -53,7 +52,6 @@ TEST(Pictures, HaveTheSizeAskedForAndRepeat) {
 
 TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
   RunSource run(made_record(), cube());
-  RunSource* const runs[] = {&run};
   for (const auto& [width, height] : {std::pair{480, 270},
                                       {320, 240},
                                       {240, 320},
@@ -70,12 +68,13 @@ TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
         options.width_px = width;
         options.height_px = height;
         options.has_caption = has_caption;
-        const PanelLayout layout = lay_out(*kind, runs, options);
+        const PanelLayout layout = layout_of(*kind, run, options);
         EXPECT_GE(layout.columns * layout.rows, kind->panels);
         const auto [x, y] =
             layout.place_px(static_cast<std::size_t>(layout.columns * layout.rows) - 1);
         EXPECT_GE(x + layout.view.width_px, width);
         EXPECT_GE(y + layout.view.height_px, height - layout.foot_px);
+        EXPECT_EQ(layout.head_px > 0, has_words(options));
         EXPECT_LT(y, height - layout.foot_px);
         for (const Vec3f& v : run.world().structure.vertices_m) {
           const Vec3 p = project(layout.view, v.cast<double>()).value();
@@ -92,13 +91,12 @@ TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
 /// shows it from border to border.
 TEST(Pictures, WordsOfPanelsHavePaperThatNoPanelReaches) {
   RunSource run(made_record(), cube());
-  RunSource* const runs[] = {&run};
   Renderer renderer;
   for (const auto& [width, height] : {std::pair{960, 540}, {540, 960}}) {
     PictureOptions options;
     options.width_px = width;
     options.height_px = height;
-    const PanelLayout layout = lay_out(kCoveragePicture, runs, options);
+    const PanelLayout layout = layout_of(kCoveragePicture, run, options);
     Picture picture{.panels = std::vector<Panel>(2), .detail = "d", .legend = {{"l", {srgb(0)}}}};
     for (Panel& panel : picture.panels) panel.note = "note";
     const Image empty = draw_picture(picture, run, options, layout, renderer);
@@ -107,6 +105,10 @@ TEST(Pictures, WordsOfPanelsHavePaperThatNoPanelReaches) {
       panel.labels.push_back({Vec3(50, 0, 1), "a word beside a place far off"});
     }
     const Image full = draw_picture(picture, run, options, layout, renderer);
+    picture.detail = "other figures";  // neither do words reach a panel
+    picture.legend.front().label = "other words";
+    const Image reworded = draw_picture(picture, run, options, layout, renderer);
+    EXPECT_NE(reworded.rgb, full.rgb);
     std::vector<std::uint8_t> is_panel(empty.rgb.size() / 3);
     for (std::size_t i = 0; i < 2; ++i) {
       const auto [x0, y0] = layout.place_px(i);
@@ -117,6 +119,7 @@ TEST(Pictures, WordsOfPanelsHavePaperThatNoPanelReaches) {
       for (int y = y0; y < std::min(height - layout.foot_px, y0 + layout.view.height_px); ++y) {
         for (int x = x0; x < std::min(width, x0 + layout.view.width_px); ++x) {
           is_panel[static_cast<std::size_t>(y * width + x)] = 1;
+          ASSERT_EQ(reworded.at(x, y), full.at(x, y)) << x << ' ' << y;
         }
       }
     }
@@ -153,8 +156,7 @@ TEST(Pictures, SheetHoldsEveryImageWhereItBelongs) {
 
 TEST(Pictures, SheetsLettersTheirCellsAndSayALegendOnceARow) {
   DrawnPicture drawn{.image = {480, 270, std::vector<std::uint8_t>(480 * 270 * 3, 200)},
-                     .caption = {.title = "t", .detail = "", .legend = {{"what", {srgb(0)}}}},
-                     .view = {}};
+                     .caption = {.title = "t", .detail = "", .legend = {{"what", {srgb(0)}}}}};
   const auto lower_half = [](const Image& image) {
     return std::vector<std::uint8_t>(image.rgb.begin() + 3 * 480 * 200, image.rgb.end());
   };
@@ -290,10 +292,9 @@ TEST(CameraChoice, FileIsReadAndFaultsAreNamed) {
   const RenderView south = frame_points(points, {deg_to_rad(-90.0), 0.0}, 100, 100);
   EXPECT_LT((view.to_light_world - south.to_light_world).norm(), 1e-9);
   RunSource run(made_record(), cube());
-  RunSource* const runs[] = {&run};
   PictureOptions options;
   options.camera = view;
-  EXPECT_EQ(lay_out(kPathPicture, runs, options).view.to_light_world, view.to_light_world);
+  EXPECT_EQ(view_of(kPathPicture, run, options).to_light_world, view.to_light_world);
   EXPECT_FALSE(choose_camera("top").camera.has_value());
   EXPECT_THROW(choose_camera("behind"), BadInput);
   write_file_atomically(file, R"({"position_m": [0, -9], "target_m": [0, 0, 3]})");

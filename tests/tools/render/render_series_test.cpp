@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tools/render/scene.hpp"
+#include "tools/render/renderer.hpp"
 
 namespace gnbv {
 namespace {
@@ -39,8 +39,12 @@ RenderScene moment(int i) {
   return scene;
 }
 
-RenderView view_of(double azimuth_deg) {
-  return frame_box(kBox_m, {deg_to_rad(azimuth_deg), deg_to_rad(25.0)}, 320, 180);
+RenderView view_of(double azimuth_deg, int width_px = 320, int height_px = 180) {
+  std::vector<Vec3> corners_m;
+  for (int i = 0; i < 8; ++i) {
+    corners_m.push_back(kBox_m.corner(static_cast<Box3::CornerType>(i)));
+  }
+  return frame_points(corners_m, {deg_to_rad(azimuth_deg), deg_to_rad(25.0)}, width_px, height_px);
 }
 
 TEST(Series, EachPictureIsWhatAFreshRendererDraws) {
@@ -71,7 +75,7 @@ TEST(Series, WhatPassesBehindTheCameraAndOtherPicturesDoNotMatter) {
 
 /// What comes near a wall darkens it farther than where it is drawn itself.
 TEST(Series, HollowsReachBeyondWhatChanged) {
-  const RenderView view = frame_box(kBox_m, {deg_to_rad(30.0), deg_to_rad(25.0)}, 960, 540);
+  const RenderView view = view_of(30.0, 960, 540);
   RenderScene scene;
   scene.series_box_m = kBox_m;
   SurfaceItem wall;

@@ -4,7 +4,7 @@
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
 #include "tools/mission/replay.hpp"
-#include "tools/render/run_source.hpp"
+#include "tools/scene/run_source.hpp"
 
 namespace gnbv {
 

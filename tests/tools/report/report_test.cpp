@@ -11,11 +11,11 @@
 #include "tests/support/covered_record.hpp"
 #include "tests/support/made_frames.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/render/colour.hpp"
 #include "tools/report/run_json.hpp"
 #include "tools/report/run_pack.hpp"
 #include "tools/run/plan_jsonl.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "sim/core/image.hpp"
 #include "tests/tools/surface/pictured_sheet.hpp"
+#include "tools/scene/error_scale.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
@@ -212,14 +213,14 @@ TEST(SurfacePicture, PiecesHaveTheTexturesColoursAndTheFacesArea) {
 
 /// An axis on which nearly all is pale would show no error.
 TEST(SurfacePicture, ErrorsHaveAnAxisOfTheirOwnLength) {
-  EXPECT_EQ(error_range_m({}), 0.001);
+  EXPECT_EQ(error_scale({}).most_m, 0.001);
   for (const auto& [most_m, end_m] :
        {std::pair{0.0004, 0.001}, std::pair{0.009, 0.01}, std::pair{0.01, 0.01},
         std::pair{0.011, 0.02}, std::pair{0.021, 0.05}, std::pair{0.06, 0.1}}) {
     std::vector<double> errors_m(100, 0.2 * most_m);
     std::fill_n(errors_m.begin(), 8, most_m);  // up to it stay 97 of 100
     std::fill_n(errors_m.begin(), 3, 10.0);
-    EXPECT_NEAR(error_range_m(errors_m), end_m, 1e-12) << most_m;
+    EXPECT_NEAR(error_scale(errors_m).most_m, end_m, 1e-12) << most_m;
   }
 }
 

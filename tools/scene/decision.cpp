@@ -1,0 +1,227 @@
+#include "tools/scene/decision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "tools/scene/flight.hpp"
+#include "tools/scene/voxels.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr double kRejectedPin = 12.0;  // layout units
+
+/// The other end of a pin of that length, towards where the view looks.
+Vec3f pin_end(const ViewPose& view, double length_m) {
+  const Vec3 ahead(std::cos(view.gimbal_pitch_rad), 0.0, -std::sin(view.gimbal_pitch_rad));
+  return (view.p_world_m + length_m * (T_world_body(view).linear() * ahead)).cast<float>();
+}
+
+constexpr int kRaysAcross = 9;
+constexpr int kRaysDown = 7;
+
+/// Where a ray's way through a box ends; 0 where it misses the box.
+double exit_m(const Box3& box_m, const Vec3& from, const Vec3& along) {
+  double enter = 0.0;
+  double exit = std::numeric_limits<double>::infinity();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double low = (box_m.min()[k] - from[k]) / along[k];
+    const double high = (box_m.max()[k] - from[k]) / along[k];
+    if (std::isnan(low) || std::isnan(high)) continue;  // along a face
+    enter = std::max(enter, std::min(low, high));
+    exit = std::min(exit, std::max(low, high));
+  }
+  return enter < exit ? exit : 0.0;
+}
+
+/// The ray up to the first occupied voxel or its end, in pieces through free voxels and through
+/// unknown ones; nothing of one that neither ends on a surface nor meets unknown voxels.
+void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& along, double length_m,
+             double unit_m, RenderScene& scene) {
+  const double step_m = 0.25 * grid.geometry().resolution_m();
+  const std::size_t tubes_before = scene.tubes.size();
+  bool says_something = false;
+  double begin_m = 0.0;
+  VoxelState state = grid.state_at(from);
+  for (double end_m = 0.0; begin_m < length_m && state != VoxelState::occupied; end_m += step_m) {
+    const bool is_last = end_m >= length_m;
+    const VoxelState next = is_last ? state : grid.state_at(from + end_m * along);
+    if (next == state && !is_last) continue;
+    const Vec3f end = (from + std::min(end_m, length_m) * along).cast<float>();
+    const bool is_unknown = state == VoxelState::unknown;
+    scene.tubes.push_back({{(from + begin_m * along).cast<float>(), end},
+                           {(is_unknown ? looks::kRayUnknown : looks::kRayFree).rgb()},
+                           static_cast<float>((is_unknown ? 1.6 : 1.2) * unit_m)});
+    says_something = says_something || is_unknown || next == VoxelState::occupied;
+    if (next == VoxelState::occupied) {
+      scene.balls.push_back({end, static_cast<float>(4.0 * unit_m), looks::kRayHit.rgb()});
+    }
+    begin_m = end_m;
+    state = next;
+  }
+  if (!says_something) scene.tubes.resize(tubes_before);
+}
+
+// Rings through the views around a cluster that stand in one layer (Fig. 6), as far as they lie
+// within the bounds.
+void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
+                RenderScene& scene) {
+  using Layer = std::pair<int, long>;  // cluster, and millimetre of height
+  std::map<Layer, std::vector<const Candidate*>> layers;
+  for (const Candidate& candidate : plan.candidates) {
+    if (candidate.cluster < 0) continue;
+    layers[{candidate.cluster, std::lround(1000.0 * candidate.view.p_world_m.z())}].push_back(
+        &candidate);
+  }
+  for (auto& [layer, views] : layers) {
+    const auto cluster = static_cast<std::size_t>(layer.first);
+    if (cluster >= clusters.size() || views.size() < 3) continue;
+    const Vec3& centre_m = clusters[cluster].centroid_world_m;
+    const auto angle_rad = [&](const Candidate* candidate) {
+      const Vec3 away_m = candidate->view.p_world_m - centre_m;
+      return std::atan2(away_m.y(), away_m.x());
+    };
+    std::sort(views.begin(), views.end(),
+              [&](const Candidate* a, const Candidate* b) { return angle_rad(a) < angle_rad(b); });
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Candidate& a = *views[i];
+      const Candidate& b = *views[(i + 1) % views.size()];
+      const bool is_beyond =
+          a.rejected == Rejection::out_of_bounds || b.rejected == Rejection::out_of_bounds;
+      if (is_beyond) continue;
+      scene.tubes.push_back(path_tube({a.view.p_world_m, b.view.p_world_m}, 0.5 * unit_m,
+                                      looks::kFrontierLayer.rgb()));
+    }
+  }
+}
+
+}  // namespace
+
+ScoreRange scores_of(const Plan& plan) {
+  ScoreRange scores;
+  for (const Candidate& candidate : plan.candidates) {
+    if (candidate.rejected) continue;
+    const double score = candidate.score.value;
+    scores.low = scores.valid == 0 ? score : std::min(scores.low, score);
+    scores.high = scores.valid == 0 ? score : std::max(scores.high, score);
+    ++scores.valid;
+  }
+  return scores;
+}
+
+BallItem ball_of(const Candidate& candidate, const ScoreRange& scores, double unit_m) {
+  if (candidate.rejected) {
+    const auto reason = static_cast<std::size_t>(*candidate.rejected);
+    return {pin_end(candidate.view, kRejectedPin * unit_m), static_cast<float>(4.8 * unit_m),
+            rejection_looks()[reason].rgb()};
+  }
+  const double range = std::max(scores.high - scores.low, 1e-12);
+  return {candidate.view.p_world_m.cast<float>(), static_cast<float>(6.6 * unit_m),
+          ramp(score_colours(), 1.0 - (scores.high - candidate.score.value) / range)};
+}
+
+void add_candidates(const Plan& plan, double unit_m, RenderScene& scene) {
+  const ScoreRange scores = scores_of(plan);
+  for (const Candidate& candidate : plan.candidates) {
+    const BallItem& ball = scene.balls.emplace_back(ball_of(candidate, scores, unit_m));
+    const double length_m = (candidate.rejected ? kRejectedPin : 19.0) * unit_m;
+    scene.tubes.push_back(
+        {{candidate.view.p_world_m.cast<float>(), pin_end(candidate.view, length_m)},
+         {ball.colour},
+         static_cast<float>((candidate.rejected ? 1.4 : 2.4) * unit_m)});
+  }
+}
+
+bool has_frontier_views(const Plan& plan) {
+  return std::any_of(plan.candidates.begin(), plan.candidates.end(),
+                     [](const Candidate& candidate) { return candidate.cluster >= 0; });
+}
+
+void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
+                   const RenderView& view, Panel& panel) {
+  RenderScene& scene = panel.scene;
+  const Belief& belief = decision.belief;
+  FrontierMarks marks(belief.grid.geometry().voxel_count());
+  // those that could be tried, by their numbers, then the others
+  std::vector<FrontierCluster> clusters = decision.plan.clusters;
+  std::set<VoxelIndex> numbered;
+  for (const FrontierCluster& cluster : clusters) numbered.insert(cluster.voxels.front());
+  for (FrontierCluster& cluster : find_frontiers(config, belief.grid, belief.cloud, marks)) {
+    if (!numbered.contains(cluster.voxels.front())) clusters.push_back(std::move(cluster));
+  }
+  const int chosen = decision.plan.chosen.empty()
+                         ? -1
+                         : decision.plan.candidates[decision.plan.chosen.front()].cluster;
+  int tried = -1;
+  for (const Candidate& candidate : decision.plan.candidates) {
+    tried = std::max(tried, candidate.cluster);
+  }
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const bool is_chosen = static_cast<int>(i) == chosen;
+    const std::vector<Rgb> colour = {(is_chosen ? looks::kLookedAt : looks::kFrontier).rgb()};
+    // a hair larger than the map's own cubes, which may be as large as their voxels
+    constexpr double kOver = 1.02;
+    scene.surfaces.push_back(
+        voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, kOver));
+    if (static_cast<int>(i) > tried) continue;
+    const Vec3& centre_m = clusters[i].centroid_world_m;
+    // the middle of a cluster may lie within the surface
+    if (!shows(view, belief.grid, centre_m, 3.0 * belief.grid.geometry().resolution_m())) continue;
+    panel.labels.insert(is_chosen ? panel.labels.begin() : panel.labels.end(),
+                        {centre_m, fmt::format("{}", i + 1), looks::kLookedAt.rgb()});
+  }
+  add_layers(decision.plan, clusters, unit_m, scene);
+}
+
+void add_chosen_view(const RunRecord& record, const World& world, const Belief& belief,
+                     std::size_t iteration, double unit_m, RenderScene& scene) {
+  const ViewPose& view = record.views[iteration].decision.view;
+  const double beside_m = 3.0 * belief.grid.geometry().resolution_m();
+  Box3 near_m = bounds_m(world.structure);
+  near_m = Box3(near_m.min().array() - beside_m, near_m.max().array() + beside_m);
+  add_view(record.scenario.cameras, view, {.pyramid_m = 60.0 * unit_m, .edge_m = 1.3 * unit_m},
+           looks::kCamera.rgb(), scene);
+  for (const CameraConfig& camera : record.scenario.cameras) {
+    const Isometry T_world_camera =
+        frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, 1.0, {}).T_world_camera;
+    const Vec3 eye = T_world_camera.translation();
+    for (int row = 0; row < kRaysDown; ++row) {
+      for (int column = 0; column < kRaysAcross; ++column) {
+        const double x = 2.0 * (column + 0.5) / kRaysAcross - 1.0;
+        const double y = 2.0 * (row + 0.5) / kRaysDown - 1.0;
+        const Vec3 ahead =
+            Vec3(x * std::tan(0.5 * camera.fov_x_rad), y * std::tan(0.5 * camera.fov_y_rad), 1.0);
+        const Vec3 along = T_world_camera.linear() * ahead.normalized();
+        const double length_m =
+            std::min(camera.range_max_m * ahead.norm(), exit_m(near_m, eye, along));
+        add_ray(belief.grid, eye, along, length_m, unit_m, scene);
+      }
+    }
+  }
+}
+
+std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iteration) {
+  std::vector<Vec3> way = {record.views[iteration - 1].decision.view.p_world_m};
+  const auto& via = record.views[iteration].decision.via_world_m;
+  way.insert(way.end(), via.begin(), via.end());
+  way.push_back(record.views[iteration].decision.view.p_world_m);
+  const Rgb chosen = looks::kChosen.rgb();
+  const Rgb white = {1.0F, 1.0F, 1.0F};
+  std::vector<PlaceLine> lines = {{way.back(), way.back(), chosen, 14.0}};
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    lines.push_back({way[i], way[i + 1], chosen, 2.4});
+  }
+  lines.push_back({way.back(), way.back(), white, 6.0});
+  // the smaller ring, uppermost: a way too short to be seen leaves one within the other
+  lines.push_back({way.front(), way.front(), looks::kViewBefore.rgb(), 8.0});
+  lines.push_back({way.front(), way.front(), white, 3.0});
+  return lines;
+}
+
+}  // namespace gnbv

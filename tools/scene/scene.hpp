@@ -1,0 +1,163 @@
+// A run as plain data: primitives with places and colours, and what words say of them. Everything
+// is in world coordinates (metres, z up) and linear colour.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/image.hpp"
+#include "sim/mesh/triangle_mesh.hpp"
+#include "tools/scene/looks.hpp"
+#include "tools/scene/view.hpp"
+
+namespace gnbv {
+
+/// Lit triangles, seen from both sides. Edges sharper than the crease stay sharp, others are
+/// smooth.
+struct SurfaceItem {
+  TriangleMesh mesh = {};
+  std::vector<Rgb> vertex_colours = {};  // (n) as mesh.vertices_m; empty: the materials' colours
+  double crease_rad = deg_to_rad(35.0);  // 0: every face is flat
+  float opacity = 1.0F;      // under 1: a ghost, of which only the nearest layer is drawn
+  bool is_lit = true;        // else its colours are what is seen: they carry light already
+  bool is_painted = false;   // opaque: its colours are the scene's paint, where there is any
+  bool casts_shadow = true;  // terrain casts none: its size says nothing of the scene's
+};
+
+/// A lit tube along a polyline with round joints and ends.
+struct TubeItem {
+  std::vector<Vec3f> points_m;
+  std::vector<Rgb> colours;  // one a point, or one for all
+  float radius_m = 0.05F;
+  bool casts_shadow = false;  // a long path would hatch what lies below it
+};
+
+/// A lit ball.
+struct BallItem {
+  Vec3f centre_m = Vec3f::Zero();
+  float radius_m = 0.1F;
+  Rgb colour = {0.5F, 0.5F, 0.5F};
+  bool casts_shadow = false;
+};
+
+/// A point cloud as round dots: cheaper than balls by far, for millions of points.
+struct DotsItem {
+  std::vector<Vec3f> points_m = {};
+  std::vector<Vec3f> normals = {};  // (n), unit, either side; empty: lit from everywhere
+  std::vector<Rgb> colours = {};    // (n), or one for all
+  float radius_m = 0.02F;
+  bool casts_shadow = true;
+};
+
+/// The pyramid that a camera sees, out to `length_m` along its axis.
+struct FrustumItem {
+  Isometry T_world_camera = Isometry::Identity();  // optical frame
+  double fov_x_rad = deg_to_rad(60.0);
+  double fov_y_rad = deg_to_rad(45.0);
+  double length_m = 1.0;
+  float edge_radius_m = 0.02F;
+  Rgb colour = {0.5F, 0.5F, 0.5F};
+  float face_opacity = 0.0F;  // 0: edges only
+};
+
+/// Where its pyramid ends: around its axis.
+inline std::array<Vec3, 4> far_corners_m(const FrustumItem& item) {
+  const double x = item.length_m * std::tan(0.5 * item.fov_x_rad);
+  const double y = item.length_m * std::tan(0.5 * item.fov_y_rad);
+  const auto corner = [&](double sx, double sy) -> Vec3 {
+    return item.T_world_camera * Vec3(sx * x, sy * y, item.length_m);
+  };
+  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+}
+
+/// A level plane with grid lines that fades out around the scene; it receives shadows.
+struct GroundItem {
+  double z_m = 0.0;
+  double minor_m = 1.0;
+  double major_m = 5.0;
+};
+
+/// Colours of what a view looks at, of the size at which a picture of that view is drawn: 2 x 2 for
+/// each of its pixels.
+struct PaintItem {
+  int width_px = 0;
+  int height_px = 0;
+  /// (height, width, 4), sRGB, rows from the bottom; 0 0 0 0: none.
+  std::vector<std::uint8_t> rgba = {};
+};
+
+/// RenderScene::shading of pictures whose colours are data.
+constexpr float kDataShading = 0.45F;
+
+struct RenderScene {
+  std::vector<SurfaceItem> surfaces;
+  std::vector<TubeItem> tubes;
+  std::vector<BallItem> balls;
+  std::vector<DotsItem> dots;
+  std::vector<FrustumItem> frusta;
+  std::optional<GroundItem> ground;
+  std::optional<PaintItem> paint;
+  /// How far from each other surfaces darken their hollows at most; nothing: as suits the view.
+  std::optional<double> hollow_m = {};
+  /// Of what light and haze do to colours, how much: less where a legend says what they mean.
+  float shading = 1.0F;
+  /// One of a series that shows no more than what lies in this box, as a film: light, haze and
+  /// shadows stay the same throughout, and a renderer draws again only what has changed.
+  std::optional<Box3> series_box_m = {};
+};
+
+/// What one colour, or one run of colours, means.
+struct LegendItem {
+  enum class Mark { line, dot, ring, square, pyramid };
+  std::string label = {};
+  std::vector<Rgb> colours = {};  // one, or those of a bar from its low end to its high end
+  Mark mark = Mark::square;       // of a single colour
+  std::string label_before = {};  // of a bar: at its low end; of others: of the row it begins
+  bool begins_row = false;
+  std::string label_middle = {};  // of a bar: what its middle stands for, set upon it
+
+  bool operator==(const LegendItem&) const = default;
+};
+
+/// The entry of a thing, under its own words.
+inline LegendItem entry(const Look& look, LegendItem::Mark mark = LegendItem::Mark::square) {
+  return {std::string(look.words), {look.rgb()}, mark};
+}
+
+/// Words beside a place in the world; or on it, white on a badge of a colour, which is left out
+/// where it would lie on an earlier one.
+struct PlaceLabel {
+  Vec3 p_world_m;
+  std::string text;
+  std::optional<Rgb> badge = {};
+};
+
+/// A line between two places that shows through everything, edged in white; a dot where they are
+/// one.
+struct PlaceLine {
+  Vec3 from_world_m, to_world_m;
+  Rgb colour;
+  double width = 0.0;  // layout units
+};
+
+/// One scene of a picture that may hold several, side by side.
+struct Panel {
+  RenderScene scene;
+  std::string note = {};                // over the panel
+  std::vector<PlaceLine> lines = {};    // over the scene, the last one uppermost
+  std::vector<PlaceLabel> labels = {};  // over everything
+  std::optional<RenderView> view = {};  // instead of the layout's, of its size
+};
+
+struct Picture {
+  std::vector<Panel> panels = {};
+  std::string detail = {};  // one line of figures
+  std::vector<LegendItem> legend = {};
+  Image inset = {};              // small, in the upper right corner; empty: none
+  std::string inset_words = {};  // under it
+};
+
+}  // namespace gnbv
