@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -22,7 +21,6 @@ namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 struct PaperOptions {
   fs::path out;
@@ -112,18 +110,9 @@ PaperMaterial fly(const PaperOptions& options, bool& has_failures) {
 
 std::vector<DrawnFigure> draw(const PaperOptions& options, const PaperMaterial& material) {
   ProgressBar bar("figures", options.bench.quiet);
-  const Clock::time_point begin = Clock::now();
   return draw_figures(material, options.out, thread_count(options.bench.threads),
                       [&](std::size_t done, std::size_t all, const std::string& figure) {
-                        std::string note = figure;
-                        if (done > 0) {
-                          const double spent_s =
-                              std::chrono::duration<double>(Clock::now() - begin).count();
-                          const double left_s =
-                              spent_s / static_cast<double>(done) * static_cast<double>(all - done);
-                          note += fmt::format(", about {:.0f} s left", std::ceil(left_s));
-                        }
-                        bar.show(static_cast<double>(done) / static_cast<double>(all), note);
+                        bar.show(static_cast<double>(done) / static_cast<double>(all), figure);
                       });
 }
 

@@ -14,8 +14,8 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/live/live_report.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/report/page_parts.hpp"
-#include "tools/report/report.hpp"
+#include "tools/page/page_parts.hpp"
+#include "tools/page/report.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 

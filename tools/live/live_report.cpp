@@ -7,7 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "tools/live/live_server.hpp"
-#include "tools/report/report.hpp"
+#include "tools/page/report.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/terminal/interrupt.hpp"
 

@@ -8,9 +8,9 @@
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
 #include "sim/core/text.hpp"
+#include "tools/page/jpeg.hpp"
+#include "tools/page/page_text.hpp"
 #include "tools/paper/page_parts.hpp"
-#include "tools/report/jpeg.hpp"
-#include "tools/report/page_text.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {

@@ -7,8 +7,8 @@
 
 #include "bench/compare/text_table.hpp"
 #include "sim/core/text.hpp"
+#include "tools/page/page_text.hpp"
 #include "tools/paper/page_parts.hpp"
-#include "tools/report/page_text.hpp"
 
 namespace gnbv {
 namespace {

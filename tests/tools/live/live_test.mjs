@@ -6,7 +6,7 @@ import { spawn, spawnSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
 import { connect } from "node:net";
-import { Browser } from "../report/browser.mjs";
+import { Browser } from "../page/browser.mjs";
 
 const [gnbv, chromium] = process.argv.slice(2);
 const kViews = 40;

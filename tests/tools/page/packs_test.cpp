@@ -1,0 +1,435 @@
+// Laws of what pages are packed of: what is packed is restored, what is thinned keeps its bounds
+// and its budget, and nothing depends on the number of threads.
+#include "tools/page/packs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "assets/catalog.hpp"
+#include "bench/score/coverage_curve.hpp"
+#include "planner/core/plan.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
+#include "tests/bench/shapes.hpp"
+#include "tests/support/made_frames.hpp"
+#include "tests/support/made_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tests/tools/page/page_arrays.hpp"
+#include "tools/page/run_pack.hpp"
+#include "tools/page/structures.hpp"
+#include "tools/page/true_surface.hpp"
+#include "tools/run/beliefs_jsonl.hpp"
+#include "tools/run/candidates_jsonl.hpp"
+
+namespace gnbv {
+namespace {
+
+using test::numbers;
+using Numbers = std::vector<double>;
+
+/// Points on a wavy sheet of 10 m by 10 m.
+std::vector<Vec3f> sheet(std::size_t count) {
+  std::vector<Vec3f> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = [&](std::uint64_t axis) {
+      return static_cast<float>(10.0 * uniform01({7, Stream::bench, i, axis}) - 5.0);
+    };
+    points.emplace_back(at(0), at(1), std::sin(at(0)) - 3.0F);
+  }
+  return points;
+}
+
+/// In a cube of `size_m`.
+std::vector<Vec3f> random_points(std::size_t count, float size_m, std::uint64_t seed) {
+  std::vector<Vec3f> points;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto at = [&](std::uint64_t axis) {
+      return size_m * static_cast<float>(uniform01({seed, Stream::bench, i, axis}));
+    };
+    points.emplace_back(at(0), at(1), at(2));
+  }
+  return points;
+}
+
+TEST(Arrays, EachIsRestoredFromWhereABrowserMayReadIt) {
+  page::Arrays arrays;
+  const auto expect_back = [&](const auto& values) {
+    const auto array = arrays.add(values);
+    EXPECT_EQ(array.at % 8, 0U);
+    EXPECT_EQ(numbers(array, arrays), Numbers(values.begin(), values.end()));
+  };
+  expect_back(std::vector<std::uint8_t>{1, 2, 255});
+  expect_back(std::vector<std::int16_t>{-32768, 32767});
+  expect_back(std::vector<std::uint16_t>{65535});
+  expect_back(std::vector<std::uint32_t>{0xffffffffU, 5});
+  expect_back(std::vector<float>{0.1F, -1e30F});
+  expect_back(std::vector<double>{0.1, 1e300});
+  expect_back(std::vector<double>{});
+  const std::vector<std::uint32_t> whole = {0, 127, 128, 300, 16384, 0xffffffffU};
+  const std::size_t before = arrays.bytes().size();
+  const page::Numbers packed = arrays.add_numbers(whole);
+  EXPECT_EQ(numbers(packed, arrays), Numbers(whole.begin(), whole.end()));
+  std::size_t bytes = 0;
+  for (const std::uint32_t number : whole) bytes += page::bytes_of_number(number);
+  EXPECT_EQ(arrays.bytes().size(), (before + 7) / 8 * 8 + bytes);
+}
+
+TEST(Arrays, PointsAreRestoredWithinHalfAStepAndOneHeightExactly) {
+  page::Arrays arrays;
+  std::vector<Vec3f> points = sheet(2000);
+  for (int pass = 0; pass < 2; ++pass) {
+    const page::Points packed = arrays.add_points(points);
+    const Numbers back = numbers(packed, arrays);
+    for (std::size_t i = 0; i < back.size(); ++i) {
+      // half a step, and the rounding of float32 at 10 m
+      EXPECT_NEAR(back[i], points[i / 3][static_cast<Eigen::Index>(i % 3)],
+                  packed.size_m[i % 3] / 131070.0 + 2e-6);
+    }
+    for (Vec3f& p : points) p.z() = 2.5F;
+  }
+  EXPECT_TRUE(numbers(arrays.add_points({}), arrays).empty());
+}
+
+TEST(Thinning, KeepsTheBudgetAndTheFirstPointOfEachCell) {
+  const std::vector<Vec3f> points = sheet(20000);
+  const ThinnedPoints thin = thinned(points, 1500, 0.02);
+  ASSERT_LE(thin.kept.size(), 1500U);
+  EXPECT_GT(thin.kept.size(), 500U);  // a lattice 1.25 times as coarse keeps 1 / 1.56 of a sheet
+  EXPECT_TRUE(std::is_sorted(thin.kept.begin(), thin.kept.end()));
+  // whatever went lies in the cell of one that stayed
+  const double diagonal_m = thin.cell_m * std::sqrt(3.0);
+  for (std::size_t i = 0; i < points.size(); i += 97) {
+    EXPECT_TRUE(std::any_of(thin.kept.begin(), thin.kept.end(), [&](std::size_t k) {
+      return (points[k] - points[i]).norm() <= diagonal_m;
+    })) << i;
+  }
+  const std::vector<Vec3f> few = {
+      {0.15F, 0, 0}, {0.05F, 0, 0}, {0.11F, 0, 0}, {-0.05F, 0, 0}, {0.01F, 0.01F, 0.01F}};
+  EXPECT_EQ(first_points(few, 0.1), (std::vector<std::size_t>{0, 1, 3}));
+  EXPECT_EQ(thinned(few, 5, 0.1).kept.size(), 5U);
+  EXPECT_EQ(thinned(few, 5, 0.1).cell_m, 0.0);
+}
+
+TEST(Thinning, AMeshKeepsItsPlaceItsMaterialsAndItsBudget) {
+  const TriangleMesh whole = make_builtin_structure("aircraft");
+  const TriangleMesh thin = with_fewer_faces(whole, 6000);
+  ASSERT_LE(thin.faces.size(), 6000U);
+  EXPECT_GT(thin.faces.size(), 2000U);
+  EXPECT_EQ(thin.faces.size(), thin.face_material.size());
+  EXPECT_TRUE(bounds_m(whole).contains(bounds_m(thin)));
+  EXPECT_NEAR(bounds_m(thin).diagonal().norm(), bounds_m(whole).diagonal().norm(), 0.5);
+  for (const auto& face : thin.faces) {
+    EXPECT_EQ(std::set<std::uint32_t>(face.begin(), face.end()).size(), 3U);
+    for (const std::uint32_t corner : face) ASSERT_LT(corner, thin.vertices_m.size());
+  }
+  EXPECT_EQ(with_fewer_faces(whole, 1'000'000).faces.size(), whole.faces.size());
+  for (const std::size_t bytes : {20'000U, 200'000U}) {
+    page::Arrays arrays;
+    pack_mesh(whole, bytes, arrays);
+    EXPECT_LE(arrays.bytes().size(), bytes);
+    EXPECT_GT(arrays.bytes().size(), bytes / 4);
+  }
+}
+
+/// In each voxel of 1 m, among the first `end` points.
+std::map<std::array<double, 3>, double> brute_counts(const RunCloud& cloud, std::size_t end) {
+  std::map<std::array<double, 3>, double> counts;
+  for (std::size_t i = 0; i < end; ++i) {
+    const Vec3f& p = cloud.points_world_m[i];
+    counts[{std::floor(p.x()), std::floor(p.y()), std::floor(p.z())}] += 1.0;
+  }
+  return counts;
+}
+
+/// The counts after each state, as the page adds them up, are those of the points until then.
+void expect_brute_counts(const RunCloud& cloud) {
+  page::Arrays arrays;
+  const page::VoxelData voxels = pack_voxels(cloud, 1.0, 100'000'000, arrays);
+  const Numbers index = numbers(voxels.index, arrays);
+  const Numbers after = numbers(voxels.after, arrays);
+  const Numbers gains = numbers(voxels.gains, arrays);
+  const Numbers gains_after = numbers(voxels.gains_after, arrays);
+  ASSERT_EQ(after.size(), cloud.view_points.size() + 1);
+  Numbers counts(index.size() / 3, 0.0);
+  std::size_t gain = 0;
+  for (std::size_t state = 0; state < after.size(); ++state) {
+    for (std::size_t voxel = 0; gain < static_cast<std::size_t>(gains_after[state]); gain += 2) {
+      voxel += static_cast<std::size_t>(gains[gain]);
+      counts.at(voxel) += gains[gain + 1];
+    }
+    const bool is_last = state + 1 == after.size();
+    const auto expected = brute_counts(cloud, is_last      ? cloud.points_world_m.size()
+                                              : state == 0 ? cloud.profile_points
+                                                           : cloud.view_points[state - 1]);
+    EXPECT_EQ(after[state], static_cast<double>(expected.size()));
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      const auto at = expected.find({index[3 * v], index[3 * v + 1], index[3 * v + 2]});
+      ASSERT_EQ(counts[v], at == expected.end() ? 0.0 : at->second) << "state " << state;
+      EXPECT_EQ(static_cast<double>(v) < after[state], at != expected.end());
+    }
+  }
+}
+
+TEST(VoxelGrowth, TheCountsAfterEachViewAreThoseOfItsPoints) {
+  // the last points came after the last view and count to it
+  expect_brute_counts(
+      {.points_world_m = sheet(6000), .profile_points = 900, .view_points = {900, 4000, 5900}});
+  expect_brute_counts({.points_world_m = sheet(50), .profile_points = 20, .view_points = {}});
+}
+
+TEST(CloudPack, APointIsThereAfterTheViewThatBroughtIt) {
+  const RunCloud cloud{
+      .points_world_m = sheet(100), .profile_points = 20, .view_points = {30, 30, 90}};
+  page::Arrays arrays;
+  const page::CloudData packed =
+      pack_cloud(cloud, {.cell_m = 0.5, .kept = {3, 19, 20, 29, 88, 95}}, nullptr, 1, arrays);
+  EXPECT_EQ(numbers(packed.after, arrays), (Numbers{2, 4, 4, 6}));
+  EXPECT_EQ(numbers(packed.points, arrays).size(), 18U);
+}
+
+TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
+  SurfaceReference reference;
+  reference.outside = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
+  reference.raw = reference.outside;
+  RunCloud cloud{.points_world_m = random_points(5000, 2.0F, 2),
+                 .profile_points = 700,
+                 .view_points = {900, 900, 3100, 5000}};
+  std::vector<std::size_t> prefixes = {cloud.profile_points};
+  prefixes.insert(prefixes.end(), cloud.view_points.begin(), cloud.view_points.end());
+  const auto curve = coverage_of_prefixes(reference, cloud.points_world_m, prefixes, 1);
+  const TrueVoxels voxels = true_voxels(reference, 1'000'000);
+  EXPECT_EQ(voxels.size_m, 0.05);
+  const std::vector<std::uint16_t> until = views_until_found(voxels, cloud);
+  for (std::size_t n = 0; n < curve.size(); ++n) {
+    const auto found = std::count_if(until.begin(), until.end(), [&](auto u) { return u <= n; });
+    EXPECT_EQ(static_cast<double>(found) / static_cast<double>(until.size()), curve[n].outside[0]);
+  }
+  EXPECT_GT(std::count(until.begin(), until.end(), kNeverFound), 0);
+  // what came after the last view counts to it
+  const TrueVoxels two{.size_m = 1.0, .codes = {code_of({0, 0, 0}), code_of({1, 0, 0})}};
+  EXPECT_EQ(views_until_found(two, {.points_world_m = {{0.5F, 0, 0}, {1.5F, 0, 0}},
+                                    .profile_points = 1,
+                                    .view_points = {1, 1}}),
+            (std::vector<std::uint16_t>{0, 2}));
+}
+
+TEST(TrueSurface, IsAsFineAsThePageHasRoomFor) {
+  SurfaceReference reference;
+  reference.outside = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
+  for (std::size_t size = 0; size < 3; ++size) {
+    const std::size_t count = reference.outside[size].size();
+    EXPECT_EQ(true_voxels(reference, count).size_m, kCoverageSizes_m[size]);
+    EXPECT_EQ(voxel_indices(true_voxels(reference, count)).size(), 3 * count);
+  }
+  EXPECT_TRUE(true_voxels(reference, reference.outside[2].size() - 1).codes.empty());
+  // an index beyond 16 bits at 0.05 m
+  reference.outside = at_all_sizes(voxels_of(std::vector<Vec3f>{{2000, 0, 0}}, 0.05));
+  EXPECT_EQ(true_voxels(reference, 10).size_m, 0.10);
+}
+
+TEST(TrueSurface, ErrorsAreDistancesToTheStructureAloneAndTheirScaleIsOfThem) {
+  World world;
+  test::add_box(world.structure, {-1, -1, 0.5}, {2, 2, 2});
+  world.obstacles = box_mesh(Box3(Vec3(3, -2, 0), Vec3(3.2, 2, 3)));
+  const RayScene scene(world);
+  const RunCloud cloud{
+      .points_world_m = {{1, 0, 1}, {1.0304F, 0, 1}, {1.6F, 0, 1}, {3, 0, 1}, {-6, 0, 1}},
+      .profile_points = 5,
+      .view_points = {}};
+  const std::vector<std::uint8_t> errors = {0, 30, 254, kNotOfStructure, 254};
+  EXPECT_EQ(point_errors(scene, cloud.points_world_m, 1), errors);
+  EXPECT_EQ(point_errors(scene, cloud.points_world_m, 3), errors);
+  page::Arrays arrays;
+  const page::CloudData packed =
+      pack_cloud(cloud, {.cell_m = 0.0, .kept = {0, 1, 3}}, &scene, 1, arrays);
+  EXPECT_EQ(packed.error_most_mm, 50.0);  // 95 % of 0 and 30 mm lie within
+  EXPECT_EQ(packed.error_median_mm, 0.0);
+}
+
+/// A run whose decisions are written by hand.
+class DecisionPack : public testing::Test {
+ protected:
+  DecisionPack() { record_.folder = temp_.path(); }
+
+  void keep(const std::vector<BelievedVoxels>& views) {
+    BeliefsFile file(temp_.path(), 1);
+    for (std::size_t i = 0; i < views.size(); ++i) file.write(i + 1, views[i]);
+    file.finish();
+  }
+  void keep(const std::vector<Plan>& plans) {
+    CandidatesFile file(temp_.path(), 1);
+    for (std::size_t i = 0; i < plans.size(); ++i) file.write(i + 1, plans[i]);
+    file.finish();
+  }
+  /// Lattice indices of the cells of a view, as the page restores them.
+  static std::set<Key> cells(const page::BeliefData& packed, const page::BeliefList& list,
+                             std::size_t view, const page::Arrays& arrays) {
+    const Numbers runs = numbers(list.runs, arrays);
+    const Numbers begins = numbers(list.begins, arrays);
+    std::set<Key> cells;
+    const auto [nx, ny, nz] = packed.cells;
+    for (std::size_t of = list.has_changes ? 0 : view; of <= view; ++of) {
+      double cell = 0.0;
+      for (auto i = static_cast<std::size_t>(begins[of]); static_cast<double>(i) < begins[of + 1];
+           i += 2) {
+        cell += runs[i];
+        for (const double end = cell + runs[i + 1]; cell < end; ++cell) {
+          const auto c = static_cast<int>(cell);
+          EXPECT_LT(c, nx * ny * nz);
+          const Key key = {c % nx + packed.low[0], c / nx % ny + packed.low[1],
+                           c / (nx * ny) + packed.low[2]};
+          if (cells.erase(key) == 0) cells.insert(key);
+        }
+      }
+    }
+    return cells;
+  }
+  std::set<Key> keys(std::initializer_list<VoxelIndex> voxels) const {
+    std::set<Key> all;
+    for (const VoxelIndex v : voxels) all.insert(grid_.key_at(v));
+    return all;
+  }
+
+  TempFolder temp_;
+  RunRecord record_ = made_record();
+  GridGeometry grid_{record_.scenario.workspace_m, record_.scenario.planner.map.resolution_m};
+  page::Arrays arrays_;
+};
+
+TEST_F(DecisionPack, HoldsEachVoxelOfEachDecision) {
+  EXPECT_FALSE(pack_beliefs(record_, 10'000, arrays_).has_value());
+  const VoxelIndex last = static_cast<VoxelIndex>(grid_.voxel_count() - 1);
+  keep(std::vector<BelievedVoxels>{
+      {.unknown = {{0, 3}, {300, 2}}, .predicted = {{301, 1}}, .frontier = {{5, 4}, {20, 1}}},
+      {.unknown = {{last, 1}}, .frontier = {{6, 4}, {20, 1}}}});
+  const auto packed = pack_beliefs(record_, 10'000, arrays_);
+  ASSERT_TRUE(packed && packed->unknown && packed->predicted && packed->frontier);
+  EXPECT_FALSE(packed->looked_at.has_value());  // holds nothing
+  EXPECT_EQ(packed->size_m, grid_.resolution_m());
+  const auto at = [&](const auto& list, std::size_t view) {
+    return cells(*packed, *list, view, arrays_);
+  };
+  EXPECT_TRUE(at(packed->unknown, 0).empty());  // the start is no decision
+  EXPECT_EQ(at(packed->unknown, 1), keys({0, 1, 2, 300, 301}));
+  EXPECT_EQ(at(packed->unknown, 2), keys({last}));
+  EXPECT_EQ(at(packed->predicted, 1), keys({301}));
+  EXPECT_EQ(at(packed->frontier, 1), keys({5, 6, 7, 8, 20}));
+  EXPECT_EQ(at(packed->frontier, 2), keys({6, 7, 8, 9, 20}));
+  EXPECT_EQ(numbers(packed->unknown->counts, arrays_), (Numbers{0, 5, 1}));
+}
+
+TEST_F(DecisionPack, HasLargerCellsWhereThereIsNoRoom) {
+  VoxelRuns scattered;
+  for (VoxelIndex v = 3; v + 3 < grid_.voxel_count(); v += 7) scattered.push_back({v, 2});
+  keep(std::vector<BelievedVoxels>{{.unknown = scattered}, {.unknown = scattered}});
+  const auto fine = pack_beliefs(record_, 100'000'000, arrays_);
+  const std::size_t room = arrays_.bytes().size() / 5;
+  page::Arrays less;
+  const auto packed = pack_beliefs(record_, room, less);
+  ASSERT_TRUE(fine && packed);
+  EXPECT_LE(less.bytes().size(), room + 24);
+  EXPECT_GT(packed->size_m, fine->size_m);
+  const double scale = std::round(packed->size_m / fine->size_m);
+  std::set<Key> expected;  // a cell of each voxel, and no other
+  for (const Key& key : cells(*fine, *fine->unknown, 1, arrays_)) {
+    Key cell;
+    for (std::size_t a = 0; a < 3; ++a) {
+      cell[a] = static_cast<std::int32_t>(std::floor(key[a] / scale));
+    }
+    expected.insert(cell);
+  }
+  EXPECT_EQ(cells(*packed, *packed->unknown, 1, less), expected);
+  // what is told of them stays true
+  EXPECT_EQ(numbers(packed->unknown->counts, less), numbers(fine->unknown->counts, arrays_));
+}
+
+TEST_F(DecisionPack, OfAnOlderRunSaysHowToHaveThem) {
+  EXPECT_EQ(why_no_beliefs(record_), "");  // kept no candidates either
+  write_file_atomically(temp_.path() / kCandidatesFile, "");
+  const std::string why = why_no_beliefs(record_);
+  EXPECT_NE(why.find("--candidates"), std::string::npos) << why;
+  keep(std::vector<BelievedVoxels>{});
+  EXPECT_EQ(why_no_beliefs(record_), "");
+  EXPECT_FALSE(pack_beliefs(record_, 10'000, arrays_).has_value());  // an oracle's decides nothing
+  write_file_atomically(temp_.path() / kBeliefsFile, "{\"iteration\":1,\"unknown\":[0]}\n");
+  EXPECT_THROW(pack_beliefs(record_, 10'000, arrays_), BadInput);
+}
+
+TEST_F(DecisionPack, HoldsEachCandidateWithItsReasonAndTerms) {
+  EXPECT_FALSE(pack_candidates(record_, 10'000, arrays_).has_value());
+  Plan plan;
+  plan.candidates = {{.view = {Vec3(4, 5, 6), 0.5}, .sampler = Sampler::agvs},
+                     {.view = {Vec3(1, 2, 3), -1.5, 0.25}, .sampler = Sampler::agvs},
+                     {.view = {Vec3(1, 2, 4), 1.5}, .sampler = Sampler::agvs}};
+  plan.candidates[0].rejected = Rejection::collision;
+  plan.candidates[1].score = {.value = 9.0, .information = 8.0, .distance = 0.5};
+  plan.chosen = {1};
+  Plan other = plan;
+  other.chosen = {2};
+  keep(std::vector{plan, other});
+  const auto packed = pack_candidates(record_, 10'000, arrays_);
+  ASSERT_TRUE(packed.has_value());
+  EXPECT_EQ(numbers(packed->begins, arrays_), (Numbers{0, 0, 3, 6}));  // the start is no decision
+  constexpr auto kCollision = static_cast<double>(Rejection::collision);
+  EXPECT_EQ(numbers(packed->kind, arrays_),
+            (Numbers{kCollision, page::kChosenCandidate, page::kValidCandidate, kCollision,
+                     page::kValidCandidate, page::kChosenCandidate}));
+  const Numbers terms = numbers(packed->terms, arrays_);
+  ASSERT_EQ(terms.size(), 20U);  // of four that were not rejected
+  EXPECT_EQ(Numbers(terms.begin(), terms.begin() + 5), (Numbers{9, 8, 0, 0, 0.5}));
+  const Numbers angles = numbers(packed->angles, arrays_);
+  EXPECT_EQ(Numbers(angles.begin() + 2, angles.begin() + 4), (Numbers{-1.5, 0.25}));
+  EXPECT_THROW(pack_candidates(record_, 10, arrays_), BadInput);
+}
+
+/// However large each part of it is, and it uses what it has.
+TEST_F(DecisionPack, ARunStaysWithinItsBudget) {
+  const fs::path run = temp_.path();
+  write_made_run(run);
+  write_made_frames(run);
+  const std::vector<Vec3f> points = sheet(40'000);
+  write_cloud_ply(points, run / "cloud.ply");
+  VoxelRuns scattered;
+  for (VoxelIndex v = 3; v + 3 < grid_.voxel_count(); v += 7) scattered.push_back({v, 2});
+  keep(std::vector<BelievedVoxels>(2, {.unknown = scattered, .frontier = scattered}));
+  RunRecord record = read_run(run);
+  record.views.back().cloud_points = points.size();
+  for (int i = 0; i < 20'000; ++i) record.path.push_back(made_sample(5.0 + i, {0, 0, 0.001 * i}));
+  fs::create_directory(run / "surface");
+  std::size_t before = 0;
+  for (const std::size_t bytes : {40'000U, 100'000U, 300'000U}) {
+    // candidates and a surface of about a quarter of it each
+    Plan plan;
+    plan.candidates.assign(bytes / 65, {.view = {Vec3(4, 5, 6), 0.5}, .sampler = Sampler::agvs});
+    for (Candidate& candidate : plan.candidates) candidate.rejected = Rejection::collision;
+    keep(std::vector<Plan>{plan});
+    std::string glb(bytes / 48 * 8, ' ');
+    const std::array<std::uint32_t, 5> head = {
+        0x46546C67, 2, static_cast<std::uint32_t>(glb.size()), 4, 0x4E4F534A};
+    std::memcpy(glb.data(), head.data(), sizeof(head));
+    write_file_atomically(run / "surface" / "surface.glb", glb);
+    page::Arrays arrays;
+    page::RunData data;
+    pack_run(
+        record, nullptr, {.bytes = bytes, .points = 100'000}, 1, [](double) {}, arrays, data);
+    const std::size_t used = arrays.bytes().size();
+    EXPECT_LE(used, bytes);
+    EXPECT_GT(used, std::max(before, bytes / 2));
+    before = used;
+    EXPECT_TRUE(data.cloud && data.voxels && data.path && data.candidates && data.beliefs &&
+                data.surface);
+    EXPECT_EQ(data.missing, std::vector<std::string>{});
+    // thinned or not, a path begins and ends where it did
+    const Numbers time_s = numbers(data.path->time, arrays);
+    EXPECT_EQ(time_s.front(), 0.0);
+    EXPECT_EQ(time_s.back(), 20'004.0);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv

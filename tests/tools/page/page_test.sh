@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Short missions, one of a tour, some with hostile names, their reports, and a browser.
+# usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium or no npm
+set -euo pipefail
+gnbv=$1
+here=$(cd "$(dirname "$0")" && pwd)
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
+  echo "page_test.sh: no Chromium: skipped" >&2
+  exit 77
+}
+command -v npm >/dev/null || {
+  echo "page_test.sh: no npm, hence no page: skipped" >&2
+  exit 77
+}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+evil='<img src=x onerror=window.hacked=1>'
+for utility in proposed tour; do
+  "$gnbv" run smoke --quiet --frames --candidates --utility "$utility" --out "$evil$utility" \
+    --set planner.termination.max_iterations=4 >/dev/null
+done
+for seed in 1 2; do  # long enough for frontiers
+  "$gnbv" run smoke --quiet --frames --candidates --seed "$seed" --out "seed$seed" \
+    --set planner.termination.max_iterations=6 >/dev/null
+done
+"$gnbv" surface "${evil}proposed" --quiet >/dev/null
+# names that only files can hold
+node -e '
+  const fs = require("fs");
+  const evil = "</script><script>window.hacked=1</script><svg onload=window.hacked=1>";
+  for (const run of process.argv.slice(1)) {
+    const summary = JSON.parse(fs.readFileSync(run + "/summary.json"));
+    Object.assign(summary, { scenario: evil, structure: evil, utility: evil, version: evil });
+    fs.writeFileSync(run + "/summary.json", JSON.stringify(summary));
+    fs.appendFileSync(run + "/scenario.yaml", "# " + evil + "\n");
+  }' "${evil}proposed" "${evil}tour"
+"$gnbv" report "${evil}proposed" --quiet -o one.html >/dev/null
+"$gnbv" report "${evil}proposed" "${evil}tour" --quiet -o two.html >/dev/null
+"$gnbv" report seed1 seed2 --quiet -o seeds.html >/dev/null
+cp -R seed1 again
+"$gnbv" report seed1 again --quiet -o equal.html >/dev/null
+# some of its views were chosen after others had been sampled in vain
+"$gnbv" run lab_model --quiet --frames --candidates --out lab \
+  --set planner.termination.max_iterations=7 >/dev/null
+"$gnbv" report lab --quiet -o lab.html >/dev/null
+layers() { node "$here/page_layers_test.mjs" "$chromium" "$@"; }
+layers equal.html seed1 again
+layers lab.html lab
+layers seeds.html seed1 seed2
+for test in page_test page_layers_test; do
+  node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
+  node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
+done

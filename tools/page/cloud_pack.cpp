@@ -1,0 +1,150 @@
+// What was measured of the surface: points, the voxels that hold them, the surface made of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+#include "bench/score/voxel_set.hpp"
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/page/packs.hpp"
+#include "tools/page/true_surface.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/scene/error_scale.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr const char* kSurfaceFile = "surface.glb";
+
+/// Where the points of each state end: after the profile, and after each view. What came after the
+/// last view counts to it.
+std::vector<std::size_t> ends_of(const RunCloud& cloud) {
+  std::vector<std::size_t> ends = {cloud.profile_points};
+  ends.insert(ends.end(), cloud.view_points.begin(), cloud.view_points.end());
+  ends.back() = cloud.points_world_m.size();
+  return ends;
+}
+
+/// See VoxelData.
+struct VoxelGrowth {
+  std::vector<std::int16_t> index;
+  std::vector<std::uint32_t> after;
+  std::vector<std::uint32_t> gains;
+  std::vector<std::uint32_t> gains_after;
+
+  std::size_t bytes() const {
+    std::size_t bytes = 2 * index.size() + 4 * (after.size() + gains_after.size());
+    for (const std::uint32_t number : gains) bytes += page::bytes_of_number(number);
+    return bytes;
+  }
+};
+
+VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
+  VoxelGrowth out;
+  std::unordered_map<std::uint64_t, std::uint32_t> voxel_of_code;
+  std::vector<std::uint32_t> gained;   // by voxel, since the last state
+  std::vector<std::uint32_t> touched;  // the voxels that gained
+  std::size_t point = 0;
+  for (const std::size_t end : ends_of(cloud)) {
+    for (; point < end; ++point) {
+      const std::uint64_t code = voxel_code(cloud.points_world_m[point], size_m);
+      const auto [place, is_new] = voxel_of_code.emplace(code, as_count(gained.size()));
+      if (is_new) {
+        for (const std::int64_t k : index_of(code)) {
+          GNBV_CHECK(std::abs(k) < std::numeric_limits<std::int16_t>::max(), "voxel {} of {} m", k,
+                     size_m);
+          out.index.push_back(static_cast<std::int16_t>(k));
+        }
+        gained.push_back(0);
+      }
+      if (gained[place->second]++ == 0) touched.push_back(place->second);
+    }
+    std::sort(touched.begin(), touched.end());
+    std::uint32_t before = 0;
+    for (const std::uint32_t voxel : touched) {
+      out.gains.insert(out.gains.end(), {voxel - before, std::exchange(gained[voxel], 0)});
+      before = voxel;
+    }
+    touched.clear();
+    out.after.push_back(as_count(gained.size()));
+    out.gains_after.push_back(as_count(out.gains.size()));
+  }
+  return out;
+}
+
+/// Whether the bytes are a binary glTF 2.0 as long as it says, with a JSON chunk within.
+bool is_whole_glb(const std::string& glb) {
+  constexpr std::size_t kHead = 20;  // magic, version, length; length and type of the first chunk
+  if (glb.size() < kHead || !glb.starts_with("glTF") || glb.compare(16, 4, "JSON") != 0) {
+    return false;
+  }
+  std::array<std::uint32_t, 4> head{};
+  std::memcpy(head.data(), glb.data(), sizeof(head));
+  return head[1] == 2 && head[2] == glb.size() && kHead + head[3] <= glb.size();
+}
+
+}  // namespace
+
+page::CloudData pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, const RayScene* scene,
+                           int threads, page::Arrays& arrays) {
+  std::vector<Vec3f> points;
+  for (const std::size_t i : thin.kept) points.push_back(cloud.points_world_m[i]);
+  std::vector<std::uint32_t> after;
+  for (const std::size_t end : ends_of(cloud)) {
+    const auto kept = std::lower_bound(thin.kept.begin(), thin.kept.end(), end);
+    after.push_back(as_count(static_cast<std::size_t>(kept - thin.kept.begin())));
+  }
+  page::CloudData out{.points = arrays.add_points(points),
+                      .after = arrays.add(after),
+                      .all_points = cloud.points_world_m.size(),
+                      .cell_m = thin.cell_m};
+  if (scene == nullptr) return out;
+  const std::vector<std::uint8_t> errors = point_errors(*scene, points, threads);
+  std::vector<double> known_m;
+  for (const std::uint8_t error : errors) {
+    if (error != kNotOfStructure) known_m.push_back(kErrorStep_m * error);
+  }
+  const ErrorScale scale = error_scale(known_m);
+  out.error = arrays.add(errors);
+  out.error_most_mm = 1000.0 * scale.most_m;
+  out.error_median_mm = 1000.0 * scale.median_m;
+  return out;
+}
+
+page::VoxelData pack_voxels(const RunCloud& cloud, double size_m, std::size_t max_bytes,
+                            page::Arrays& arrays) {
+  VoxelGrowth growth = voxel_growth(cloud, size_m);
+  while (growth.bytes() > max_bytes && growth.after.back() > kLeastElements) {
+    size_m *= 2.0;
+    growth = voxel_growth(cloud, size_m);
+  }
+  return {.size_m = size_m,
+          .index = arrays.add<3>(growth.index),
+          .after = arrays.add(growth.after),
+          .gains = arrays.add_numbers(growth.gains),
+          .gains_after = arrays.add(growth.gains_after)};
+}
+
+std::optional<page::Array<std::uint8_t>> pack_surface(const RunRecord& record,
+                                                      std::size_t max_bytes, page::Arrays& arrays) {
+  const std::filesystem::path path = record.folder / kSurfaceFolder / kSurfaceFile;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::string glb = read_file(path);
+  if (!is_whole_glb(glb)) {
+    throw BadInput(fmt::format("{}: is no whole binary glTF; `gnbv surface {}` writes it anew",
+                               path.string(), record.folder.string()));
+  }
+  if (glb.size() > max_bytes) {
+    throw BadInput(
+        fmt::format("{}: {:.1f} MB are too many for the page, {:.1f} MB are left; `gnbv surface {} "
+                    "--texture-px 2048 --simplify-m 0.05` makes a smaller one",
+                    path.string(), 1e-6 * static_cast<double>(glb.size()),
+                    1e-6 * static_cast<double>(max_bytes), record.folder.string()));
+  }
+  return arrays.add(std::vector<std::uint8_t>(glb.begin(), glb.end()));
+}
+
+}  // namespace gnbv

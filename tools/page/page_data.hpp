@@ -1,0 +1,308 @@
+// All that the program writes into a page. A struct is an object of the page's JSON, its Arrays lie
+// in the block of bytes beside it. The page's TypeScript has the same types: web/types.mjs makes
+// them of this file when the page is bundled.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/page/arrays.hpp"
+
+/// The JSON of a struct: an object of the fields that are named, which have to be all of them.
+#define GNBV_PAGE_FIELDS(Type, ...)                                                           \
+  inline void to_json(nlohmann::ordered_json& nlohmann_json_j, const Type& nlohmann_json_t) { \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__))                  \
+  }
+
+namespace gnbv::page {
+
+using Vec3d = std::array<double, 3>;
+
+struct Column {
+  std::string head = {};
+  bool is_number = false;
+};
+GNBV_PAGE_FIELDS(Column, head, is_number)
+
+/// Title, columns, rows and notes as printed.
+struct Table {
+  std::string title = {};
+  std::vector<Column> columns = {};
+  std::vector<std::vector<std::string>> rows = {};
+  std::vector<std::string> notes = {};
+};
+GNBV_PAGE_FIELDS(Table, title, columns, rows, notes)
+
+/// The voxels of the true surface that there are to find: each covers [index, index + 1) * size_m.
+struct SurfaceData {
+  double size_m = 0.0;
+  Array<std::int16_t, 3> index = {};
+};
+GNBV_PAGE_FIELDS(SurfaceData, size_m, index)
+
+/// The faces of one material.
+struct MeshPart {
+  Vec3d rgb{};  // linear; what the eye makes of a pattern from afar
+  Array<std::uint32_t, 3> corners = {};
+};
+GNBV_PAGE_FIELDS(MeshPart, rgb, corners)
+
+struct MeshData {
+  Points vertices = {};
+  std::size_t all_faces = 0;  // before thinning
+  std::vector<MeshPart> parts = {};
+  std::optional<SurfaceData> surface = {};
+};
+GNBV_PAGE_FIELDS(MeshData, vertices, all_faces, parts, surface)
+
+struct CameraData {
+  std::string name = {};
+  double fov_x = 0.0;  // radians
+  double fov_y = 0.0;
+  double range_m = 0.0;
+  std::vector<double> T_body_camera = {};  // 4 x 4, column by column; x right, y down, z forward
+};
+GNBV_PAGE_FIELDS(CameraData, name, fov_x, fov_y, range_m, T_body_camera)
+
+/// A row a view. Seconds and metres count from the first view on, the latter as planned.
+struct Views {
+  Array<double, 4> pose = {};  // x, y, z, yaw
+  Array<double> time = {};     // of the mission
+  Array<double> seconds = {};
+  Array<double> metres = {};
+  std::vector<std::string> sampler = {};
+  std::vector<std::array<int, 2>> frontier_phases = {};  // in which views were found at frontiers:
+                                                         // how many there were before and after
+  Array<std::uint32_t> candidates = {};
+  Array<std::uint32_t> valid = {};
+  std::optional<Array<double, 16>> T_body_camera = {};  // a row a camera; where a gimbal turns some
+};
+GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, frontier_phases, candidates, valid,
+                 T_body_camera)
+
+struct Figures {
+  std::string termination = {};
+  double straight_m = 0.0;
+  double profile_m = 0.0;
+  double flight_time_s = 0.0;
+  double energy_wh = 0.0;
+  double coverage = 0.0;  // at 0.05 m
+  double f_5cm = 0.0;
+  double density = 0.0;
+  std::string version = {};
+  std::string result_sha256 = {};
+  Array<double> curve = {};  // (views + 1): coverage at 0.05 m
+};
+GNBV_PAGE_FIELDS(Figures, termination, straight_m, profile_m, flight_time_s, energy_wh, coverage,
+                 f_5cm, density, version, result_sha256, curve)
+
+/// Where the paper's mission of the same utility ended.
+struct PaperEnd {
+  std::string label = {};
+  double views = 0.0;
+  std::optional<double> metres = {};
+  std::optional<double> seconds = {};
+  std::optional<Vec3d> coverage_percent = {};
+  std::optional<double> density = {};
+  bool is_doubtful = false;  // the table's notes say why
+};
+GNBV_PAGE_FIELDS(PaperEnd, label, views, metres, seconds, coverage_percent, density, is_doubtful)
+
+struct CloudData {
+  Points points = {};               // in the order of growth
+  Array<std::uint32_t> after = {};  // (views + 1): how many there are after the first n views
+  std::optional<Array<std::uint8_t, 3>> colour = {};  // sRGB, as the cameras saw them
+  std::optional<Array<std::uint8_t>> error = {};  // mm off the structure; 255: not of the structure
+  double error_most_mm = 0.0;                     // of the scale of their colours
+  double error_median_mm = 0.0;
+  std::size_t all_points = 0;  // before thinning
+  double cell_m = 0.0;         // of the thinning; 0: none
+};
+GNBV_PAGE_FIELDS(CloudData, points, after, colour, error, error_most_mm, error_median_mm,
+                 all_points, cell_m)
+
+/// The map's voxels that hold points of the cloud, in the order in which they first did, and how
+/// many of the whole cloud's points each held after every view. State n is that after n views; what
+/// came after the last view counts to it.
+struct VoxelData {
+  double size_m = 0.0;  // the map's, or twice, four times ... that, so that the page can carry them
+  Array<std::int16_t, 3> index = {};  // the voxel covers [index, index + 1) * size_m
+  Array<std::uint32_t> after = {};    // (states): how many voxels there are; the first ones
+  Numbers gains = {};  // of each voxel that got points on the way to a state, in their order: the
+                       // step from the one before (the first from voxel 0), then the points
+  Array<std::uint32_t> gains_after = {};  // (states): numbers in `gains` up to this state
+};
+GNBV_PAGE_FIELDS(VoxelData, size_m, index, after, gains, gains_after)
+
+/// The flown path.
+struct PathData {
+  Points points = {};
+  Array<float> time = {};                  // seconds
+  Array<std::int16_t, 4> quaternion = {};  // x y z w in steps of 1 / 32767, body in world
+};
+GNBV_PAGE_FIELDS(PathData, points, time, quaternion)
+
+/// What of a tour is still to come. Each plan's views stand in a row, so that what is left of one
+/// is a range of them.
+struct PlanData {
+  Array<float, 7> poses = {};  // place of the body, then the first camera in the world, x y z w
+  Array<std::uint32_t, 2> ranges =
+      {};  // (views): begin and end of the poses to come after each view
+};
+GNBV_PAGE_FIELDS(PlanData, poses, ranges)
+
+/// What became of a candidate that was not rejected; a Rejection's number otherwise.
+constexpr std::uint8_t kValidCandidate = 254;
+constexpr std::uint8_t kChosenCandidate = 255;
+
+/// Of all decisions, in the order of their views, each as it was sampled.
+struct CandidateData {
+  Points points = {};
+  Array<float, 2> angles = {};    // yaw, the gimbal's pitch
+  Array<std::uint8_t> kind = {};  // see kValidCandidate
+  Array<float, 5> terms = {};     // of those that were not rejected: utility, information, density,
+                                  // prediction, distance factor
+  Array<std::uint32_t> begins =
+      {};  // (views + 1): the first one of each view's decision, and the end
+};
+GNBV_PAGE_FIELDS(CandidateData, points, angles, kind, terms, begins)
+
+/// Cells of one kind, of each view's decision.
+struct BeliefList {
+  Numbers runs = {};  // of each run of cells the gap to the end of the one before, then its length
+  Array<std::uint32_t> begins =
+      {};  // (views + 1): the first number of each view's runs, and the end
+  Array<std::uint32_t> counts = {};  // (views): how many of the map's voxels they are
+  bool has_changes = false;  // runs are of the cells that are in the list of one of two views
+                             // alone: the view, and the one before it that has any
+};
+GNBV_PAGE_FIELDS(BeliefList, runs, begins, counts, has_changes)
+
+/// For whose sake each view was chosen. Cell i of the lattice covers [low + i, low + i + 1) *
+/// size_m; cells count along x first, then y, then z. A list that holds nothing is not there.
+struct BeliefData {
+  double size_m = 0.0;  // the map's, or twice, four times ... that, so that the page can carry them
+  double map_m = 0.0;
+  std::array<int, 3> low{};
+  std::array<int, 3> cells{};
+  std::optional<BeliefList> unknown = {};
+  std::optional<BeliefList> predicted = {};
+  std::optional<BeliefList> frontier = {};
+  std::optional<BeliefList> looked_at = {};
+};
+GNBV_PAGE_FIELDS(BeliefData, size_m, map_m, low, cells, unknown, predicted, frontier, looked_at)
+
+/// A picture of a camera, colour and depth as JPEG.
+struct FrameData {
+  int view = 0;
+  std::string camera = {};
+  int width_px = 0;
+  int height_px = 0;
+  Array<std::uint8_t> jpeg = {};
+  Array<std::uint8_t> depth_jpeg = {};
+};
+GNBV_PAGE_FIELDS(FrameData, view, camera, width_px, height_px, jpeg, depth_jpeg)
+
+/// A line of a plot, of x and y as one effort measures it. A y that is not known is NaN.
+struct PlotCurve {
+  Array<double> x = {};
+  Array<double> y = {};
+  std::optional<Array<double>> low = {};  // of a band around it
+  std::optional<Array<double>> high = {};
+};
+GNBV_PAGE_FIELDS(PlotCurve, x, y, low, high)
+
+struct PlotSeries {
+  std::string label = {};
+  int run = -1;  // whose it is, with several; of a mean the first one; -1: nobody's
+  std::string colour = {};
+  std::vector<double> dashes = {};
+  bool is_step = false;              // keeps each y until the next x
+  std::array<PlotCurve, 3> by = {};  // views, metres, seconds
+};
+GNBV_PAGE_FIELDS(PlotSeries, label, run, colour, dashes, is_step, by)
+
+/// Where the paper's mission ended.
+struct PlotRing {
+  std::string label = {};  // of the paper's row
+  int run = 0;
+  std::string colour = {};
+  std::array<std::optional<double>, 3> x;  // views, metres, seconds
+  double y = 0.0;
+};
+GNBV_PAGE_FIELDS(PlotRing, label, run, colour, x, y)
+
+/// One of what a plot can show.
+struct PlotChoice {
+  std::string label = {};
+  std::string unit = {};
+  std::vector<PlotSeries> series = {};
+  std::vector<PlotSeries> means =
+      {};  // the same, of runs that differ in their seeds alone their mean
+  std::vector<PlotRing> rings = {};
+};
+GNBV_PAGE_FIELDS(PlotChoice, label, unit, series, means, rings)
+
+struct Plot {
+  std::string title = {};
+  std::string note = {};
+  std::string chooses = {};  // what its choices are of
+  int decimals = -1;         // of its values; -1: three digits that count
+  std::vector<PlotChoice> choices = {};
+};
+GNBV_PAGE_FIELDS(Plot, title, note, chooses, decimals, choices)
+
+struct RunData {
+  std::string label = {};
+  std::string colour = {};
+  std::string structure = {};
+  std::string preset = {};
+  std::uint64_t seed = 0;
+  std::string command = {};  // that flies it again
+  std::string yaml = {};
+  std::vector<std::string> missing = {};  // a sentence each
+  Vec3d workspace_min{};
+  Vec3d workspace_max{};
+  bool has_ground = false;
+  std::optional<double> profile_end_s = {};
+  std::optional<double> views_begin_s = {};
+  int mesh = -1;  // into PageData; -1: none
+  std::vector<CameraData> cameras = {};
+  std::vector<Vec3d> rotors = {};
+  double radius_m = 0.0;  // of the vehicle
+  Views views = {};
+  std::optional<Figures> figures = {};
+  std::optional<double> ceiling = {};  // coverage at 0.05 m that could be reached
+  std::optional<PaperEnd> paper = {};
+  std::optional<CloudData> cloud = {};
+  std::optional<Array<std::uint16_t>> found = {};  // see views_until_found()
+  std::optional<CandidateData> candidates = {};
+  std::optional<BeliefData> beliefs = {};
+  std::optional<Array<std::uint8_t>> surface = {};  // surface.glb, as `gnbv surface` wrote it
+  std::optional<VoxelData> voxels = {};
+  std::optional<PathData> path = {};
+  std::optional<PlanData> plan = {};
+  std::vector<FrameData> frames = {};
+};
+GNBV_PAGE_FIELDS(RunData, label, colour, structure, preset, seed, command, yaml, missing,
+                 workspace_min, workspace_max, has_ground, profile_end_s, views_begin_s, mesh,
+                 cameras, rotors, radius_m, views, figures, ceiling, paper, cloud, found,
+                 candidates, beliefs, surface, voxels, path, plan, frames)
+
+struct PageData {
+  std::string title = {};
+  bool is_live = false;  // served while the mission flies
+  std::string version = {};
+  nlohmann::ordered_json scene = {};  // see looks_json()
+  std::vector<Table> tables = {};
+  std::vector<Plot> plots = {};
+  std::vector<MeshData> meshes = {};
+  std::vector<RunData> runs = {};
+};
+GNBV_PAGE_FIELDS(PageData, title, is_live, version, scene, tables, plots, meshes, runs)
+
+}  // namespace gnbv::page

@@ -1,0 +1,135 @@
+// run_data() of run_pack.hpp: names, figures and views.
+#include <algorithm>
+
+#include "bench/compare/paper_figures.hpp"
+#include "scenarios/load.hpp"
+#include "sim/core/file.hpp"
+#include "tools/figures/curves.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/page/run_pack.hpp"
+#include "tools/run/file_names.hpp"
+
+namespace gnbv {
+namespace {
+
+page::Vec3d vec(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Column by column, as three.js has them.
+std::vector<double> matrix(const Isometry& T) {
+  return std::vector<double>(T.data(), T.data() + 16);
+}
+
+/// `columns` numbers a view.
+template <std::size_t columns = 1, typename Values>
+auto column(const RunRecord& record, page::Arrays& arrays, const Values& values_of) {
+  std::vector<typename decltype(values_of(record.views[0]))::value_type> values;
+  for (const ViewRecord& view : record.views) {
+    for (const auto value : values_of(view)) values.push_back(value);
+  }
+  return arrays.add<columns>(values);
+}
+
+page::Views views_of(const RunRecord& record, page::Arrays& arrays) {
+  const double begin_s = record.views.empty() ? 0.0 : record.views.front().time_s;
+  using V = const ViewRecord&;
+  const auto one = [&](const auto& value_of) {
+    using T = decltype(value_of(record.views[0]));
+    return column(record, arrays, [&](V v) { return std::array<T, 1>{value_of(v)}; });
+  };
+  page::Views views{
+      .pose = column<4>(
+          record, arrays,
+          [](V v) {
+            const ViewPose& p = v.decision.view;
+            return std::array{p.p_world_m.x(), p.p_world_m.y(), p.p_world_m.z(), p.yaw_rad};
+          }),
+      .time = one([](V v) { return v.time_s; }),
+      .seconds = one([&](V v) { return v.time_s - begin_s; }),
+      .metres = one([](V v) { return v.straight_m; }),
+      .candidates = one([](V v) { return static_cast<std::uint32_t>(v.decision.candidates); }),
+      .valid = one([](V v) { return static_cast<std::uint32_t>(v.decision.valid); })};
+  for (const ViewRecord& view : record.views) {
+    views.sampler.emplace_back(traits_of(view.decision.sampler).name);
+  }
+  for (const Phase& phase : frontier_phases(record.views)) {
+    views.frontier_phases.push_back({phase.first, phase.last + 1});
+  }
+  if (!gimbal_of(record.scenario.cameras)) return views;
+  std::vector<double> mountings;  // of all cameras, as the gimbal had them
+  for (const ViewRecord& v : record.views) {
+    for (const CameraConfig& camera : record.scenario.cameras) {
+      const double pitch_rad = v.decision.view.gimbal_pitch_rad;
+      const auto T = matrix(turned(make_camera_model(camera), pitch_rad).T_body_camera);
+      mountings.insert(mountings.end(), T.begin(), T.end());
+    }
+  }
+  views.T_body_camera = arrays.add<16>(mountings);
+  return views;
+}
+
+page::Figures figures_of(const RunFigures& f, page::Arrays& arrays) {
+  std::vector<double> curve;
+  for (const auto& sizes : f.curve.coverage) curve.push_back(sizes[0]);
+  return {.termination = f.termination,
+          .straight_m = f.straight_m,
+          .profile_m = f.before.profile_m,
+          .flight_time_s = f.flight_time_s,
+          .energy_wh = f.energy_wh,
+          .coverage = f.coverage_final[0],
+          .f_5cm = f.distances.at[1].f,
+          .density = f.density_points_per_voxel,
+          .version = f.version,
+          .result_sha256 = f.result_sha256,
+          .curve = arrays.add(curve)};
+}
+
+std::optional<page::PaperEnd> paper_of(const RunRecord& record) {
+  if (!record.figures || !has_papers_setting(record.scenario)) return std::nullopt;
+  const PaperTable* const paper = find_paper_table(record.scenario.name);
+  if (paper == nullptr || !is_papers_structure(*paper, record.figures->structure)) return {};
+  const PaperRow* const row = find_row(*paper, record.scenario.planner.utility.name);
+  if (row == nullptr || !row->iterations) return std::nullopt;
+  page::PaperEnd end{.label = std::string(row->label),
+                     .views = static_cast<double>(*row->iterations),
+                     .metres = row->distance_m,
+                     .seconds = row->time_min,
+                     .coverage_percent = row->coverage_percent,
+                     .density = row->density_points_per_voxel,
+                     .is_doubtful = is_doubtful(*row)};
+  if (end.seconds) *end.seconds *= 60.0;
+  return end;
+}
+
+}  // namespace
+
+page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
+  const Scenario& scenario = record.scenario;
+  page::RunData run;
+  run.structure = structure_name(scenario.structure);
+  run.preset = scenario.planner.preset;
+  run.seed = scenario.seed;
+  run.yaml = read_file(record.folder / kScenarioFile);
+  run.missing = record.missing;
+  run.workspace_min = vec(scenario.workspace_m.min());
+  run.workspace_max = vec(scenario.workspace_m.max());
+  run.has_ground = has_flat_ground(scenario);
+  run.profile_end_s = record.profile_end_s;
+  run.views_begin_s = record.views_begin_s;
+  for (const CameraConfig& config : scenario.cameras) {
+    run.cameras.push_back({.name = config.name,
+                           .fov_x = config.fov_x_rad,
+                           .fov_y = config.fov_y_rad,
+                           .range_m = config.range_max_m,
+                           .T_body_camera = matrix(make_camera_model(config).T_body_camera)});
+  }
+  for (const RotorMount& rotor : scenario.vehicle.airframe.rotors) {
+    run.rotors.push_back(vec(rotor.p_body_m));
+  }
+  run.radius_m = scenario.vehicle.airframe.hull_radius_m;
+  run.views = views_of(record, arrays);
+  if (record.figures) run.figures = figures_of(*record.figures, arrays);
+  run.paper = paper_of(record);
+  return run;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,126 @@
+#include "tools/page/structures.hpp"
+
+#include <map>
+
+#include "scenarios/load.hpp"
+#include "sim/core/error.hpp"
+#include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/page/thinning.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kAllMeshBytes = 4'000'000;
+constexpr std::size_t kAllSurfaceBytes = 6'000'000;
+constexpr std::size_t kVoxelBytes = 6;
+constexpr std::size_t kFoundBytes = 2;  // a voxel and run
+constexpr std::size_t kMaxFaces = 120'000;
+constexpr std::size_t kFewFaces = 100;  // are never too many
+
+/// Equal for runs of the same structure among the same obstacles on the same terrain, that are
+/// scored alike.
+std::string structure_key(const Scenario& scenario) {
+  Scenario only;
+  only.structure = scenario.structure;
+  only.terrain = scenario.terrain;
+  only.obstacles = scenario.obstacles;
+  only.score.region_m = scenario.score.region_m;
+  only.planner.floor_z_m = scenario.planner.floor_z_m;
+  return to_yaml(only);
+}
+
+/// What stands there, as one mesh.
+TriangleMesh all_meshes(const World& world) {
+  TriangleMesh all = world.structure;
+  for (const TriangleMesh* more : {&world.obstacles, &world.terrain}) {
+    if (!more->faces.empty()) append(all, *more);
+  }
+  return all;
+}
+
+std::shared_ptr<KnownStructure> known_structure(const Scenario& scenario, std::size_t max_voxels,
+                                                int threads) {
+  std::vector<std::string> told_by_run;  // the mesh's faults were told when it was flown
+  auto known = std::make_shared<KnownStructure>(load_world_anywhere(scenario, told_by_run));
+  try {
+    const auto reference = reference_of(scenario, known->world, known->scene, threads);
+    known->to_find = true_voxels(reference, max_voxels);
+  } catch (const BadInput&) {
+    // nothing to measure: there is nothing to find
+  }
+  return known;
+}
+
+/// None where the run was flown around another one.
+Structures::OfRun as_flown(const Structures::OfRun& structure, const RunRecord& record) {
+  try {
+    need_same_inputs(record.folder, structure.inputs, "the page shows the run without it");
+    return structure;
+  } catch (const BadInput& error) {
+    return {.number = -1, .why = error.what()};
+  }
+}
+
+}  // namespace
+
+page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::Arrays& arrays) {
+  const auto bytes_of = [](const TriangleMesh& m) {
+    return 12 * m.faces.size() + 6 * m.vertices_m.size() + 8 * (m.materials.size() + 1);
+  };
+  TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);
+  while (bytes_of(small) > max_bytes && small.faces.size() > kFewFaces) {
+    small = with_fewer_faces(mesh, small.faces.size() / 4 * 3);
+  }
+  page::MeshData out{.vertices = arrays.add_points(small.vertices_m),
+                     .all_faces = mesh.faces.size()};
+  std::vector<std::vector<std::uint32_t>> corners(small.materials.size());
+  for (std::size_t i = 0; i < small.faces.size(); ++i) {
+    auto& of_part = corners[material_of(small, i)];
+    of_part.insert(of_part.end(), small.faces[i].begin(), small.faces[i].end());
+  }
+  for (std::size_t m = 0; m < corners.size(); ++m) {
+    if (corners[m].empty()) continue;
+    const Material& material = small.materials[m];
+    page::MeshPart part{.rgb = {}, .corners = arrays.add<3>(corners[m])};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool is_plain = material.pattern == Pattern::plain;
+      part.rgb[k] = is_plain ? material.rgb[k] : 0.7F * material.rgb[k] + 0.3F * material.rgb_2[k];
+    }
+    out.parts.push_back(part);
+  }
+  return out;
+}
+
+Structures pack_structures(const std::vector<RunRecord>& records, int threads,
+                           page::Arrays& arrays) {
+  std::map<std::string, Structures::OfRun> known;
+  for (const RunRecord& record : records) known[structure_key(record.scenario)] = {};
+  const std::size_t max_bytes = kAllMeshBytes / known.size();
+  const std::size_t max_voxels =
+      kAllSurfaceBytes / (kVoxelBytes * known.size() + kFoundBytes * records.size());
+  known.clear();
+  Structures out;
+  for (const RunRecord& record : records) {
+    const auto [entry, is_new] = known.try_emplace(structure_key(record.scenario));
+    Structures::OfRun& structure = entry->second;
+    try {
+      if (is_new) {
+        structure.known = known_structure(record.scenario, max_voxels, threads);
+        structure.inputs = world_inputs(record.scenario, structure.known->world);
+        structure.number = static_cast<int>(out.meshes.size());
+        out.meshes.push_back(pack_mesh(all_meshes(structure.known->world), max_bytes, arrays));
+        if (const TrueVoxels& voxels = structure.known->to_find; !voxels.codes.empty()) {
+          out.meshes.back().surface = {.size_m = voxels.size_m,
+                                       .index = arrays.add<3>(voxel_indices(voxels))};
+        }
+      }
+    } catch (const BadInput& error) {
+      structure.why = error.what();
+    }
+    out.of_run.push_back(as_flown(structure, record));
+  }
+  return out;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,203 @@
+// Everything that is text, tables and pictures.
+import type { Clock } from "./clock";
+import type { PageData, RunData, Table } from "./data";
+import { make, measure, minutes, number } from "./dom";
+import type { Flight } from "./flight";
+
+interface Figure {
+  name: string;
+  value: string;
+  unit: string;
+  paper?: string;
+}
+
+/** What a run comes down to. */
+function keyFigures(run: RunData): Figure[] {
+  const f = run.figures;
+  const { views, paper } = run;
+  const count = views.time.length;
+  const figures: Figure[] = [];
+  if (f) {
+    figures.push({ name: "Coverage, 0.05 m", value: number(100 * f.coverage, 1), unit: "%",
+      paper: paper?.coverage_percent
+        ? measure(number(paper.coverage_percent[0], 1), "%") + (paper.is_doubtful ? "\u00a0†" : "")
+        : undefined });
+    if (run.ceiling) {
+      figures.push({ name: "Of the ceiling", value: number(100 * f.coverage / run.ceiling, 1),
+        unit: "%" });
+    }
+    figures.push({ name: "F at 0.05 m", value: number(100 * f.f_5cm, 1), unit: "%" });
+  }
+  figures.push({ name: "Views", value: number(count), unit: "",
+    paper: paper ? number(paper.views) : undefined });
+  figures.push({ name: "View to view", value: number(f?.straight_m ?? views.metres.at(-1) ?? 0, 1),
+    unit: "m", paper: paper?.metres ? measure(number(paper.metres, 1), "m") : undefined });
+  if (f) {
+    figures.push({ name: "Profile flight", value: number(f.profile_m, 1), unit: "m" });
+    figures.push({ name: "Density", value: number(f.density, 1), unit: "a voxel",
+      paper: paper?.density ? number(paper.density, 1) : undefined });
+    figures.push({ name: "Flight with profile", value: minutes(f.flight_time_s), unit: "min" });
+    figures.push({ name: "Energy", value: number(f.energy_wh, 1), unit: "Wh" });
+  }
+  return figures;
+}
+
+/** A name whose unit no line breaks off. */
+const bound = (name: string) => name.replace(/ (\(?m\)?|\(min\))$/, "\u00a0$1");
+
+export function makeTiles(run: RunData): HTMLElement {
+  const figures = keyFigures(run);
+  const hasPapers = figures.some((figure) => figure.paper);
+  const tiles = make("dl", { class: "tiles" }, ...figures.map((figure) =>
+    make("div", { class: "card tile" }, make("dt", {}, bound(figure.name)),
+      make("dd", {}, figure.value, make("span", { class: "unit" }, figure.unit)),
+      hasPapers ? make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : "")
+        : null)));
+  tiles.style.setProperty("--in-two-rows", String(Math.ceil(figures.length / 2)));
+  tiles.style.setProperty("--in-one-row", String(figures.length));
+  return tiles;
+}
+
+/** A row a run; its box chooses whether it is shown. */
+export function makeRunTable(runs: RunData[], shown: Set<number>,
+    change: () => void): HTMLElement {
+  const heads = [...new Set(runs.flatMap((run) => keyFigures(run).map((f) => f.name)))];
+  const row = (run: RunData, index: number) => {
+    const figures = new Map(keyFigures(run).map((f) => [f.name, f]));
+    const box = make("input", { type: "checkbox", checked: shown.has(index),
+      "aria-label": `Show ${run.label}` });
+    box.addEventListener("change", () => {
+      if (box.checked) shown.add(index); else shown.delete(index);
+      change();
+    });
+    return make("tr", {}, make("th", { scope: "row" },
+      make("label", {}, box, make("span", { class: `chip run-${index}` }, run.label))),
+      ...heads.map((head) => {
+        const f = figures.get(head);
+        return make("td", { class: "number" }, f ? measure(f.value, f.unit) : "");
+      }));
+  };
+  return make("div", { class: "card scroll" }, make("table", { class: "runs" },
+    make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Shown below"),
+      ...heads.map((head) => make("th", { scope: "col", class: "number" }, bound(head))))),
+    make("tbody", {}, ...runs.map(row))));
+}
+
+export function makeTable(table: Table): HTMLElement {
+  const align = (i: number) => (table.columns[i].is_number ? "number" : "");
+  const ours = table.columns.findIndex((column) => column.head === "Row");
+  return make("div", {},
+    make("h3", {}, table.title),
+    make("div", { class: "card scroll" }, make("table", {},
+      make("thead", {}, make("tr", {}, ...table.columns.map((column, i) =>
+        make("th", { scope: "col", class: align(i) }, bound(column.head))))),
+      make("tbody", {}, ...table.rows.map((row) =>
+        make("tr", { class: row[ours] === "ours" ? "ours" : "" },
+          ...row.map((cell, i) =>
+            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1\u00a0%")))))))),
+    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
+}
+
+export function makeMissing(runs: RunData[]): HTMLElement | null {
+  const sentences = runs.flatMap((run) => run.missing.map((sentence) =>
+    make("li", {}, runs.length > 1 ? `${run.label}: ` : "", ...withCode(sentence))));
+  if (sentences.length === 0) return null;
+  return make("details", { class: "card missing" },
+    make("summary", {}, sentences.length === 1 ? "One thing is not shown"
+      : `${sentences.length} things are not shown`),
+    make("ul", {}, ...sentences));
+}
+
+/** `commands` between backticks as code. */
+function withCode(sentence: string): (Node | string)[] {
+  return sentence.split("`").map((part, i) => (i % 2 === 1 ? make("code", {}, part) : part));
+}
+
+export function makeConfiguration(runs: RunData[]): HTMLElement {
+  return make("section", {}, make("h2", {}, "Fly it again"),
+    ...runs.map((run) => make("div", { class: "card again" },
+      runs.length > 1 ? make("span", { class: `chip run-${runs.indexOf(run)}` }, run.label) : null,
+      make("div", { class: "command" }, make("code", {}, run.command), copyButton(run.command)),
+      run.figures ? make("p", { class: "fine" },
+        `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,
+        make("code", {}, run.figures.result_sha256)) : null,
+      make("details", {}, make("summary", {}, "Configuration: scenario.yaml"),
+        make("pre", { tabindex: 0 }, run.yaml)))));
+}
+
+function copyButton(text: string): HTMLElement {
+  const button = make("button", { type: "button", class: "small" }, "Copy");
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = "Copied";
+    } catch { // no clipboard for a page from a file: selects the command instead
+      getSelection()?.selectAllChildren(button.previousElementSibling!);
+      button.textContent = "Selected";
+    }
+    setTimeout(() => { button.textContent = "Copy"; }, 1600);
+  });
+  return button;
+}
+
+/** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */
+const spaced = (name: string) => (/^[a-z0-9_]+$/.test(name) ? name.replaceAll("_", " ") : name);
+
+const kSamplers: Record<string, string> = { agvs: "grid", fvs: "frontier" };
+
+/** "15 of 80 grid candidates valid": of the sampler that chose the view. */
+export function validWords(flight: Flight, view: number): string {
+  const v = flight.data.views;
+  return `${number(v.valid[view])} of ${number(v.candidates[view])} `
+    + `${kSamplers[v.sampler[view]] ?? v.sampler[view]} candidates valid`;
+}
+
+/** Where the replay is, in words. */
+export function readout(flight: Flight, clock: Clock): string {
+  const n = flight.viewsAt(clock);
+  if (n === 0) return "After the profile, before the first view";
+  const v = flight.data.views;
+  const parts = [`View ${number(n)} of ${number(flight.count)}`,
+    `${measure(number(v.metres[n - 1], 1), "m")}, ${measure(minutes(v.seconds[n - 1]), "min")} from `
+      + "the first view on"];
+  const coverage = flight.data.figures?.curve[n];
+  if (coverage !== undefined) parts.push(`coverage ${measure(number(100 * coverage, 1), "%")}`);
+  if (v.sampler[n - 1] === "tour") {
+    parts.push(`the first of ${number(v.candidates[n - 1])} planned`);
+  } else if (v.candidates[n - 1] > 0) {
+    parts.push(validWords(flight, n - 1));
+  }
+  return parts.join("  ·  ");
+}
+
+/** What of the run directory the page leaves out. */
+function thinning(run: RunData, page: PageData): string {
+  const parts: string[] = [];
+  if (run.cloud && run.cloud.cell_m > 0) {
+    const { points, all_points, cell_m } = run.cloud;
+    parts.push(`${number(points.length / 3)} of ${number(all_points)} points, one in each cube `
+      + `of ${number(100 * cell_m, 1)} cm`);
+  }
+  const mesh = page.meshes[run.mesh];
+  const faces = mesh?.parts.reduce((sum, part) => sum + part.corners.length / 3, 0) ?? 0;
+  if (mesh && faces < mesh.all_faces) {
+    parts.push(`${number(faces)} of ${number(mesh.all_faces)} faces of the structure`);
+  }
+  if (parts.length === 0) return "";
+  return `${page.runs.length > 1 ? `${run.label}: ` : "Shown are "}${parts.join("; ")}. `;
+}
+
+export function makeFooter(page: PageData): HTMLElement {
+  return make("footer", {}, `gnbv ${page.version}. `,
+    ...page.runs.map((run) => thinning(run, page)), "Frames are shrunk so that the page stays "
+    + "small; the run directory holds everything.");
+}
+
+export function makeHeader(page: PageData): HTMLElement {
+  const [run] = page.runs;
+  const detail = page.runs.length > 1 ? "" : [`structure ${spaced(run.structure)}`, `seed ${run.seed}`,
+    `preset ${spaced(run.preset)}`,
+    run.figures ? `ended by ${spaced(run.figures.termination)}` : "not finished"]
+    .join("  ·  ");
+  return make("header", {}, make("h1", {}, page.title), make("p", {}, detail));
+}
