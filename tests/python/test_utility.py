@@ -167,7 +167,7 @@ def test_functions_and_planners_are_rows_like_every_other(short, tmp_path):
     methods = ["proposed", "test_utility.py:mine", "other.py:mine", "wander"]
     assert list(dict.fromkeys(rows["method"])) == methods
     coverage = rows[rows["metric"] == "coverage at 0.05 m (%)"]
-    assert len(coverage) == 4 and (coverage["runs"] == 2).all()
+    assert len(coverage) == 4 and (coverage["n"] == 2).all()
     assert np.isfinite(coverage["difference"][1:]).all() and np.isfinite(coverage["p"][1:]).all()
     assert set(curves_of(tmp_path / "c").values()) == {2, 4}  # two are called mine
     # other names, the same missions
