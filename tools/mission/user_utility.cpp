@@ -55,9 +55,8 @@ class PythonUtility {
   explicit PythonUtility(const UtilityConfig& config)
       : function_(config.python.function),
         child_({python_program(), "-c", std::string(child_script())}, kTalks) {
-    const Json hello = {{"function", function_},
-                        {"source", config.python.source},
-                        {"dtype", dtype_of(config)}};
+    const Json hello = {
+        {"function", function_}, {"source", config.python.source}, {"dtype", dtype_of(config)}};
     child_.write(hello.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     const std::string line = child_.read_line();
     const Json answer = Json::parse(line, nullptr, false);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/frames/frame_sight.hpp"
 #include "tools/render/colour.hpp"
 #include "tools/report/jpeg.hpp"
-#include "tools/frames/frame_sight.hpp"
 
 namespace gnbv {
 namespace {
