@@ -45,7 +45,7 @@ def test_a_killed_one_is_resumed(run, tmp_path, python):
 
 def test_it_is_compared_with_others(run, tmp_path, python):
     said = run(f'compare smoke {FEW} --utilities proposed,other.py,walk=plan.py --seeds 2 '
-               '--no-ceiling --out cells --format csv', **python)
+               '--no-ceiling --out cells --format csv', **python).out
     for method in ('proposed', 'other', 'walk'):
         assert said.count(f'smoke,coverage at 0.05 m (%),{method},2,') == 1, said
 

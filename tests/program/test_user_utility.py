@@ -1,5 +1,4 @@
-"""Utilities and planners in Python files: they fly, their records repeat the runs, they are
-compared with others, their failures end the run."""
+"""A utility in a Python file: it flies, its record repeats the run, its failure ends the run."""
 import hashlib
 import sys
 from pathlib import Path
@@ -18,10 +17,6 @@ LATE = '''calls = []
 def late(views):
     calls.append(1)
     return views["path_m"] * (1 if len(calls) < 3 else float("nan"))
-'''
-PLAN = '''def plan(belief, history):
-    views = belief.valid(belief.sample())
-    return View(*views[len(history) * 7 % len(views)])
 '''
 ENDLESS = '''def endless(views):
     import os
@@ -49,33 +44,6 @@ def test_a_utility_flies_and_its_record_repeats_the_run(run, tmp_path, python):
     (tmp_path / 'mine.py').unlink()
     run('run first/scenario.yaml --quiet --threads 1 --out again', **python)
     assert hash_of(tmp_path / 'again') == flown['result_sha256']
-
-
-def test_one_function_of_several_is_named(run, tmp_path, python):
-    (tmp_path / 'mine.py').write_text(MINE)
-    run('run smoke --utility mine.py --out none',
-        'mine.py: defines several functions (other, mine): name one', code=2, **python)
-
-
-def test_a_planner_flies_again_is_resumed_and_is_a_row_like_any_other(run, tmp_path, python):
-    (tmp_path / 'plan.py').write_text(PLAN)
-    (tmp_path / 'mine.py').write_text(MINE)
-    run(f'run smoke {FEW} --utility plan.py --out planned', **python)
-    planned = hash_of(tmp_path / 'planned')
-    run('run planned/scenario.yaml --quiet --threads 1 --out again', **python)
-    assert hash_of(tmp_path / 'again') == planned
-    run('run smoke --utility plan.py --views views.csv --out none',
-        '--views views.csv: goes with --utility route', code=2, **python)
-    rows = (tmp_path / 'planned/iterations.csv').read_text().splitlines(keepends=True)
-    (tmp_path / 'planned/iterations.csv.part').write_text(''.join(rows[:4]))
-    (tmp_path / 'planned/iterations.csv').unlink()
-    (tmp_path / 'planned/summary.json').unlink()
-    run(f'run smoke {FEW} --utility plan.py --out planned --resume', **python)
-    assert hash_of(tmp_path / 'planned') == planned
-    table = run(f'compare smoke {FEW} --utilities proposed,mine.py:other,walk=plan.py --seeds 2 '
-                '--no-ceiling --out cells --format csv', **python).out
-    for method in ('proposed', 'other', 'walk'):
-        assert table.count(f'smoke,coverage at 0.05 m (%),{method},2,') == 1, table
 
 
 def test_a_utility_that_fails_ends_the_run_in_order(run, tmp_path, python):

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstring>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -29,6 +30,7 @@
 namespace gnbv {
 namespace {
 
+namespace fs = std::filesystem;
 using test::numbers;
 using Numbers = std::vector<double>;
 
