@@ -25,7 +25,7 @@ std::string tick_text(double value, double step, double largest) {
   std::string text;
   if (decimals > kMostDecimals) {
     text = fmt::format("{:g}", value);
-  } else if (largest >= 1e6 && std::fmod(step, 1000.0) == 0.0) {
+  } else if (value != 0.0 && largest >= 1e6 && std::fmod(step, 1000.0) == 0.0) {
     text = fmt::format("{:g}M", value / 1e6);  // longer numbers would leave no room
   } else {
     text = grouped(value, decimals);
