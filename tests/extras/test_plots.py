@@ -128,7 +128,7 @@ def test_data_are_as_their_schema_says_and_the_csv_holds_them(runs, tmp_path):
             with open(folder / f"{figure['name']}.csv", newline="") as file:
                 rows = csv.DictReader(file)
                 for series in (one for panel in figure["panels"] for one in panel["series"]):
-                    for i in range(max(len(series["x"]), len(series["y"]))):
+                    for i in range(len(series["y"])):
                         row = next(rows)
                         assert row["series"] == series["name"]
                         for key in ("x", "y", "low", "high"):

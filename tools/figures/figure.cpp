@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -103,10 +104,16 @@ std::string figure_csv(const Figure& figure) {
   std::string text = "panel,series,x,y,low,high\n";
   for (const FigurePanel& panel : figure.panels) {
     const std::string of_y = panel.y.label.empty() ? panel.heading : panel.y.label;
-    const std::string where = csv_text(fmt::format("{} over {}", of_y, panel.x.label));
+    const auto panel_name = [&](const Series& series, std::size_t i) {
+      // bands are one high, from 0 downwards
+      const auto band = static_cast<std::size_t>(std::max(0.0, series.y.at(i) * -1.0));
+      const bool is_band = panel.has_categories && band < panel.y.ticks.size();
+      return csv_text(
+          fmt::format("{} over {}", is_band ? panel.y.ticks[band].text : of_y, panel.x.label));
+    };
     for (const Series& series : panel.series) {
-      for (std::size_t i = 0; i < std::max(series.x.size(), series.y.size()); ++i) {
-        text += fmt::format("{},{},{},{},{},{}\n", where, csv_text(series.name),
+      for (std::size_t i = 0; i < series.y.size(); ++i) {
+        text += fmt::format("{},{},{},{},{},{}\n", panel_name(series, i), csv_text(series.name),
                             csv_number(series.x, i), csv_number(series.y, i),
                             csv_number(series.low, i), csv_number(series.high, i));
       }
