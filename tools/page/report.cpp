@@ -104,9 +104,6 @@ TextTable table_of(std::span<const ScoredRun> scored) {
     if (name_in_table(beside, run.utility) == run.utility) run.utility = human_name(run.utility);
   }
   TextTable table = comparison_table(beside, runs, ceiling, settings);
-  for (TableColumn& column : table.columns) {  // a page has room for the whole name
-    if (column.key.starts_with("coverage_")) column.head = "Coverage, " + column.head;
-  }
   if (is_papers) {
     table.notes.emplace_back(
         "entropy reduction: the paper does not say whether voxels at a clamping bound count, ours "

@@ -289,7 +289,7 @@ TEST(Report, ATableNamesCoverageInFullAndExplainsNoColumnThatIsNotThere) {
     if (head.find("0.") != std::string::npos) coverage.push_back(head);
   }
   EXPECT_EQ(coverage,
-            (std::vector<std::string>{"Coverage, 0.05 m", "Coverage, 0.10 m", "Coverage, 0.50 m"}));
+            (std::vector<std::string>{"Coverage 0.05 m", "Coverage 0.10 m", "Coverage 0.50 m"}));
   EXPECT_EQ(table["notes"].dump().find("of ceiling"), std::string::npos);
 }
 
