@@ -239,7 +239,7 @@ def finer(score, copy):
 
 def test_sizes_of_the_scenario_are_those_of_the_score_and_change_no_mission(run, score, flown,
                                                                             finer, tmp_path):
-    run('run smoke --quiet --set score.sizes_m=[0.05,0.2] --out own', '0.50 m  0.20 m')
+    run('run smoke --quiet --set score.sizes_m=[0.05,0.2] --out own', 'Coverage 0.50 m  Coverage 0.20 m')
     curve = (tmp_path / 'own/coverage.csv').read_text()
     assert curve == (finer / 'coverage.csv').read_text()
     assert curve.startswith('view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50,'

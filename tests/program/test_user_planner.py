@@ -51,6 +51,7 @@ def test_it_is_compared_with_others(run, tmp_path, python):
 
 
 def test_what_does_not_go_together_is_refused(run, tmp_path, python):
+    (tmp_path / 'views.csv').write_text('x,y,z,yaw_deg\n3.2,0,2,180\n')
     run('run smoke --utility plan.py --views views.csv --out none',
         '--views views.csv: goes with --utility route', code=2, **python)
     (tmp_path / 'two.py').write_text(PLAN + OTHER)

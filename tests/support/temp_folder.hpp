@@ -15,7 +15,7 @@ class TempFolder {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
             ("gnbv_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-             std::to_string(getpid()));
+             std::to_string(getpid()) + "_" + std::to_string(made_++));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -29,6 +29,7 @@ class TempFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  static inline int made_ = 0;
   std::filesystem::path path_;
 };
 

@@ -103,7 +103,9 @@ std::vector<World> worlds(TriangleMesh ours, const std::string& name, double sca
   return all;
 }
 
-std::vector<World> aircraft() { return worlds(make_builtin_structure("aircraft"), "a340.obj", 1.0, Vec3::Zero()); }
+std::vector<World> aircraft() {
+  return worlds(make_builtin_structure("aircraft"), "a340.obj", 1.0, Vec3::Zero());
+}
 
 TEST(ProfileSymmetry, OfAnAircraftPredictsTheFarSideFromThreeWaypoints) {
   for (const World& world : aircraft()) {
@@ -128,8 +130,8 @@ TEST(ProfileSymmetry, OfAnAircraftPredictsNextToNothingFromEight) {
 }
 
 TEST(ProfileSymmetry, IsNotInventedForThePowerPlant) {
-  for (const World& world :
-       worlds(make_builtin_structure("power_plant"), "powerplant.dae", 0.25, Vec3(0.74, -0.79, 0.0))) {
+  for (const World& world : worlds(make_builtin_structure("power_plant"), "powerplant.dae", 0.25,
+                                   Vec3(0.74, -0.79, 0.0))) {
     for (const int descents : {3, 8}) {
       const Symmetry symmetry = symmetry_of(plant_profile(world, descents));
       EXPECT_FALSE(symmetry.plane) << descents << " descents, support " << symmetry.support;

@@ -108,7 +108,7 @@ TEST_F(SweepFile, UtilitiesPresetsAndVariantsStandSideBySideTimesTheGrid) {
 TEST_F(SweepFile, AUtilityMayBeAFunctionInAFileBesideIt) {
   std::ofstream(temp_.path() / "u.py") << "def near(views):\n    return -views['path_m']\n\n"
                                           "def far(views):\n    return views['path_m']\n";
-  const Sweep sweep = read("scenarios: smoke\nutilities: [isler, ./u.py:near, u.py]\n");
+  const Sweep sweep = read("scenarios: smoke\nutilities: [isler, ./u.py:near, u.py:far]\n");
   EXPECT_THAT(names_of(sweep.methods), ElementsAre("isler", "near", "far"));
   const std::vector<Cell> cells = cells_of(sweep);
   EXPECT_EQ(cells[1].resolved.planner.utility.python.function, "near");
