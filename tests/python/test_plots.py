@@ -30,10 +30,9 @@ def test_every_kind_of_one_run_makes_its_panels(smoke, kind):
     plt.close(axes[0].figure)
 
 
-def test_reach_and_predictions_say_what_they_lack(smoke):
-    for draw in (gnbv.plots.reach, gnbv.plots.predictions):
-        with pytest.raises(gnbv.BadInput, match="nothing to plot"):
-            draw(smoke)
+def test_what_cannot_be_drawn_says_what_it_lacks(smoke):
+    with pytest.raises(gnbv.BadInput, match="nothing to plot"):
+        gnbv.plots.predictions(smoke)
     with pytest.raises(gnbv.BadInput, match="2 panels, not 1 axes"):
         gnbv.plots.density(smoke, axes=[plt.figure().add_subplot()])
     with pytest.raises(gnbv.BadInput, match="no such group"):

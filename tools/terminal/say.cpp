@@ -8,6 +8,7 @@
 namespace gnbv {
 
 void print_to_stderr(std::string_view text) {
+  std::fflush(stdout);  // where both go to one file, what was printed before stands before
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
