@@ -148,10 +148,6 @@ void ChildProcess::write(std::string_view bytes) {
   }
 }
 
-void ChildProcess::write_number(std::int64_t number) {
-  write({reinterpret_cast<const char*>(&number), sizeof number});
-}
-
 void ChildProcess::read(char* bytes, std::size_t count) {
   std::memset(bytes, 0, count);
   while (is_open_ && count > 0) {
@@ -162,12 +158,6 @@ void ChildProcess::read(char* bytes, std::size_t count) {
     bytes += got;
     count -= static_cast<std::size_t>(got);
   }
-}
-
-std::int64_t ChildProcess::read_number() {
-  std::int64_t number = 0;
-  read(reinterpret_cast<char*>(&number), sizeof number);
-  return number;
 }
 
 std::string ChildProcess::read_line() {

@@ -4,7 +4,6 @@
 #include <sys/types.h>
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -60,9 +59,7 @@ class ChildProcess {
   int start_error() const { return end_ ? end_->start_error : 0; }
 
   void write(std::string_view bytes);
-  void write_number(std::int64_t number);
   void read(char* bytes, std::size_t count);
-  std::int64_t read_number();
   std::string read_line();  // without its line feed
   std::string read_all();   // up to the end of its output
   /// Whether all that was written and read so far has come across.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/core/text.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,13 +37,7 @@ std::string tick_text(double value, double step, double largest) {
 
 }  // namespace
 
-double even_step(double span, int most) {
-  const double power = std::pow(10.0, std::floor(std::log10(span / (most - 1))));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (span / (factor * power) <= most) return factor * power;
-  }
-  return 10.0 * power;
-}
+double even_step(double span, int most) { return rounded_up_125(span / most); }
 
 std::vector<AxisTick> ticks_of(double low, double high, double step) {
   std::vector<AxisTick> ticks;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/run/words.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -17,15 +19,6 @@ constexpr double kRow = 22.0;
 constexpr double kBar = 120.0;
 constexpr double kGap = 20.0;         // between items
 constexpr double kPaperBorder = 7.0;  // above and below the legend
-
-// The longest of 1, 2, 5, 10 ... m that stays under `limit_m`.
-double round_length_m(double limit_m) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit_m)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= limit_m) return step * power;
-  }
-  return power;
-}
 
 bool is_bar(const LegendItem& item) { return item.colours.size() > 1; }
 
@@ -165,7 +158,7 @@ double legend_paper_height(int rows, double width) {
 }
 
 double scale_length_m(const RenderView& view) {
-  return round_length_m(0.16 * view.width_px / px_per_m_at_focus(view));
+  return rounded_down_125(0.16 * view.width_px / px_per_m_at_focus(view));
 }
 
 void draw_scale(Image& image, const RenderView& view, double u, double length_m) {

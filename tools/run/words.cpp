@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace gnbv {
 
@@ -22,5 +23,16 @@ std::string human_name(std::string_view name) {
 std::string counted(std::size_t count, std::string_view thing) {
   return fmt::format("{} {}{}", grouped(count), thing, count == 1 ? "" : "s");
 }
+
+double rounded_up_125(double value) {
+  constexpr double kRounding = 1e-9;
+  const double power = std::pow(10.0, std::floor(std::log10(value) + kRounding));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (value <= (factor + kRounding) * power) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+double rounded_down_125(double value) { return 1.0 / rounded_up_125(1.0 / value); }
 
 }  // namespace gnbv

@@ -16,4 +16,9 @@ std::string human_name(std::string_view name);
 /// "1 view", "12 views", "1,200 views".
 std::string counted(std::size_t count, std::string_view thing);
 
+/// Where a scale of amounts may end: the least of 1, 2 or 5 times a power of ten that reaches the
+/// value, or the greatest that it reaches. Requires one above 0.
+double rounded_up_125(double value);
+double rounded_down_125(double value);
+
 }  // namespace gnbv

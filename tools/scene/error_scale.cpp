@@ -4,16 +4,9 @@
 #include <cmath>
 #include <vector>
 
-namespace gnbv {
+#include "tools/run/words.hpp"
 
-double rounded_up_125(double value) {
-  constexpr double kRounding = 1e-9;
-  const double power = std::pow(10.0, std::floor(std::log10(value) + kRounding));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (value <= (factor + kRounding) * power) return factor * power;
-  }
-  return 10.0 * power;
-}
+namespace gnbv {
 
 ErrorScale error_scale(std::span<const double> errors_m) {
   if (errors_m.empty()) return {};

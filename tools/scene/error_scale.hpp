@@ -6,10 +6,6 @@
 
 namespace gnbv {
 
-/// Where a scale of amounts may end: the least of 1, 2 or 5 times a power of ten that reaches the
-/// value. Requires one above 0.
-double rounded_up_125(double value);
-
 struct ErrorScale {
   double most_m = 0.001;  // of the scale of error_colours(), from 0: rounded_up_125()
   double median_m = 0.0;  // half of the errors are no larger

@@ -116,6 +116,20 @@ TEST(Words, NamesOfOursAreReadAsWordsAndThoseOfUsersStay) {
   EXPECT_EQ(human_name(""), "");
 }
 
+/// Beside every value, of the amounts 1, 2 and 5 times a power of ten, the next ones.
+TEST(Words, AmountsAreRoundedToTheNextOneTwoOrFive) {
+  const std::vector<double> amounts = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100};
+  for (std::size_t i = 1; i < amounts.size(); ++i) {
+    for (const double share : {0.01, 0.5, 0.99}) {
+      const double between = amounts[i - 1] + share * (amounts[i] - amounts[i - 1]);
+      EXPECT_DOUBLE_EQ(rounded_up_125(between), amounts[i]) << between;
+      EXPECT_DOUBLE_EQ(rounded_down_125(between), amounts[i - 1]) << between;
+    }
+    EXPECT_DOUBLE_EQ(rounded_up_125(amounts[i]), amounts[i]);
+    EXPECT_DOUBLE_EQ(rounded_down_125(amounts[i]), amounts[i]);
+  }
+}
+
 TEST(Words, ThousandsAreApart) {
   EXPECT_EQ(counted(1, "view"), "1 view");
   EXPECT_EQ(counted(1200, "view"), "1,200 views");
