@@ -6,7 +6,7 @@
 
 #include "bench/compare/statistics.hpp"
 #include "bench/compare/table_groups.hpp"
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 
 namespace gnbv {
 namespace {

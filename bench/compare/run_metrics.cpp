@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 

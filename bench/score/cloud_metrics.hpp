@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "sensors/ray_scene.hpp"
 #include "sim/core/pose.hpp"
@@ -56,5 +58,11 @@ CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> clo
 
 /// Zero for an empty cloud. Voxels are those of voxel_code().
 CloudDensity cloud_density(std::span<const Vec3f> cloud_world_m, double voxel_m);
+
+/// 1 for each point but those that belong to what stands around the structure: nearer to an
+/// obstacle or the terrain than to the structure, and within kFarthest_m of it. Points near neither
+/// are kept: they are as wrong as without obstacles. Deterministic at any number of threads.
+std::vector<std::uint8_t> points_of_structure(const RayScene& scene,
+                                              std::span<const Vec3f> points_world_m, int threads);
 
 }  // namespace gnbv

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/score/scored_points.hpp"
+#include "bench/score/cloud_metrics.hpp"
 
 namespace gnbv {
 namespace {

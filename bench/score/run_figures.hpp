@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/score/cloud_metrics.hpp"
@@ -40,6 +41,32 @@ double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry);
 /// after the last view coverage stays what it is. In [0, 1]. Requires budget > 0 and a curve.
 double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_t size,
                            double budget);
+
+/// Shares of the ceiling (bench/limits/ceiling.hpp: what the cloud can hold at 0.05 m) whose effort
+/// is told, and their names.
+constexpr std::array<double, 5> kReachShares = {0.80, 0.90, 0.95, 0.98, 0.99};
+constexpr std::array<std::string_view, 5> kReachNames = {"0.80", "0.90", "0.95", "0.98", "0.99"};
+
+/// What a mission had spent.
+struct EffortSpent {
+  double views = 0.0;
+  double metres = 0.0;                // as CoverageCurve has them: from the first view on
+  double metres_with_profile = 0.0;   // and the planned legs of the profile and on to that view
+  double seconds = 0.0;               // as CoverageCurve has them: from the end of the profile on
+  double seconds_with_profile = 0.0;  // since the mission began
+};
+
+/// Seconds of the curve's entry as its metres count, as people read them: from the first view on,
+/// without the way there from the end of the profile. Requires such an entry.
+double seconds_of_views(const CoverageCurve& curve, std::size_t entry);
+
+/// How much a mission spent until it covered so much; one that ends early spends little, but
+/// reaches little: this tells the two apart. What was spent when the cloud first covered so much of
+/// the finest voxels: after the profile (no views, and none of the way to the first one) or after a
+/// view. Nothing when the mission ended before: it is not reached, however much would have been
+/// spent. Requires a curve.
+std::optional<EffortSpent> effort_to_reach(const CoverageCurve& curve, const BeforeViews& before,
+                                           double coverage);
 
 /// Coverage as fractions by kCoverageSizes_m.
 struct RunFigures {

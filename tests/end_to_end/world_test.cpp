@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bench/limits/oracle.hpp"
+#include "bench/score/cloud_metrics.hpp"
 #include "bench/score/mission_score.hpp"
-#include "bench/score/scored_points.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/flown.hpp"

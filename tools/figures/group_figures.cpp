@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/figures/coverage_levels.hpp"

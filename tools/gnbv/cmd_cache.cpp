@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "bench/compare/terminal_table.hpp"
-#include "bench/score/cache_limit.hpp"
 #include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"

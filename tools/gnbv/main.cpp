@@ -11,7 +11,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "bench/score/cache_limit.hpp"
+#include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/simd.hpp"

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/score/cloud_metrics.hpp"
 #include "bench/score/coverage_curve.hpp"
-#include "bench/score/scored_points.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

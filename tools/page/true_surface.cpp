@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/score/scored_points.hpp"
+#include "bench/score/cloud_metrics.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

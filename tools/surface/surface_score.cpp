@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/terminal_table.hpp"
-#include "bench/score/scored_points.hpp"
+#include "bench/score/cloud_metrics.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_lint.hpp"

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <thread>
 
-#include "bench/score/cache_limit.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"

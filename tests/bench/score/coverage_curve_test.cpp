@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <random>
 
-#include "bench/score/effort_to_reach.hpp"
 #include "bench/score/run_figures.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/score/cloud_metrics.hpp"
 #include "bench/score/mission_score.hpp"
-#include "bench/score/scored_points.hpp"
 #include "tests/bench/shapes.hpp"
 
 namespace gnbv {

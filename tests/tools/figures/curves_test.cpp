@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "tests/tools/figures/figure_support.hpp"
 
 namespace gnbv {
