@@ -1,11 +1,16 @@
 #include "bench/limits/ceiling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
-#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/oracle.hpp"
 #include "bench/limits/seen_surface.hpp"
 #include "bench/score/content_cache.hpp"
+#include "bench/score/packed_numbers.hpp"
+#include "scenarios/load.hpp"
 
 namespace gnbv {
 namespace {
@@ -35,19 +40,72 @@ Ceiling compute(const Scenario& scenario, const World& world, const RayScene& sc
   return ceiling;
 }
 
+std::string bytes_of(const Ceiling& ceiling) {
+  std::string bytes;
+  put_count(bytes, ceiling.positions);
+  for (const auto* shares :
+       {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
+    append_bytes(bytes, *shares);
+  }
+  return bytes;
+}
+
+std::optional<Ceiling> ceiling_in(std::string_view bytes) {
+  PackedNumbers in(bytes);
+  Ceiling ceiling{.positions = in.take_count()};
+  for (auto* shares : {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
+    *shares = in.take<std::array<double, 3>>();
+  }
+  if (!in.is_read()) return std::nullopt;
+  return ceiling;
+}
+
+/// The rows of the report: a name for readers, one for programs, and the shares.
+struct Row {
+  const char* text;
+  const char* key;
+  std::array<double, 3> share;
+};
+
+std::array<Row, 4> rows_of(const Ceiling& ceiling) {
+  return {{{"seen, of the surface visible from outside", "outside", ceiling.outside},
+           {"seen, of all surface", "raw", ceiling.raw},
+           {"kept by the cloud, visible from outside", "leaf_outside", ceiling.leaf_outside},
+           {"kept by the cloud, of all surface", "leaf_raw", ceiling.leaf_raw}}};
+}
+
+std::string oracle_text(std::span<const OracleReach> reaches) {
+  std::string text =
+      "known the structure, metres and views planned for that share of the cloud's "
+      "0.05 m voxels alone:\n";
+  for (const OracleReach& reach : reaches) {
+    text += fmt::format("{:>4.0f} %{:>9.1f} m in {} views; greedily {:.1f} m in {}\n",
+                        100.0 * reach.share, reach.length_m, reach.views, reach.greedy_m,
+                        reach.greedy_views);
+  }
+  return text;
+}
+
+nlohmann::ordered_json oracle_json(std::span<const OracleReach> reaches) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const OracleReach& reach : reaches) {
+    out.push_back({{"share", reach.share},
+                   {"views", reach.views},
+                   {"length_m", reach.length_m},
+                   {"greedy_views", reach.greedy_views},
+                   {"greedy_m", reach.greedy_m}});
+  }
+  return out;
+}
+
 }  // namespace
 
 Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScene& scene,
                      const ViewPose& start, int threads,
                      const std::function<void(double)>& on_progress) {
   const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
-  const std::string key = ceiling_key(scenario, world, legal);
-  if (const auto stored = load_cached(kKind, key)) {
-    if (const auto ceiling = ceiling_from(*stored)) return *ceiling;
-  }
-  const Ceiling ceiling = compute(scenario, world, scene, legal, threads, on_progress);
-  store_cached(kKind, key, text_of(ceiling));
-  return ceiling;
+  return cached(kKind, ceiling_key(scenario, world, legal), ceiling_in, bytes_of,
+                [&] { return compute(scenario, world, scene, legal, threads, on_progress); });
 }
 
 std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& world,
@@ -55,7 +113,99 @@ std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& worl
   if (!has_cached(kKind)) return std::nullopt;
   const LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads);
   const auto stored = load_cached(kKind, ceiling_key(scenario, world, legal));
-  return stored ? ceiling_from(*stored) : std::nullopt;
+  return stored ? ceiling_in(*stored) : std::nullopt;
+}
+
+Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
+  Scenario out;
+  out.seed = scenario.seed;  // moves the start
+  out.workspace_m = scenario.workspace_m;
+  out.structure = scenario.structure;
+  out.terrain = scenario.terrain;
+  out.obstacles = scenario.obstacles;
+  out.no_fly = scenario.no_fly;
+  out.score.region_m = scenario.score.region_m;
+  out.start = scenario.start;
+  out.lidars = scenario.lidars;
+  for (LidarConfig& lidar : out.lidars) {
+    const LidarConfig usual;
+    lidar.preset = usual.preset;
+    lidar.name = usual.name;
+    lidar.beams = usual.beams;
+    lidar.rate_hz = usual.rate_hz;
+    lidar.range_sigma_m = usual.range_sigma_m;
+    lidar.rolling = usual.rolling;
+  }
+  out.cameras = scenario.cameras;
+  for (CameraConfig& camera : out.cameras) {
+    const CameraConfig usual;
+    camera.preset = usual.preset;
+    camera.name = usual.name;
+    camera.rate_hz = usual.rate_hz;
+    camera.drop_probability = usual.drop_probability;
+    camera.noise = usual.noise;
+  }
+  const PlannerConfig& planner = scenario.planner;
+  out.planner.map.resolution_m = planner.map.resolution_m;
+  out.planner.cloud.leaf_m = planner.cloud.leaf_m;
+  out.planner.floor_z_m = planner.floor_z_m;
+  out.planner.profiling = planner.profiling;
+  out.planner.validity.collision_radius_m = planner.validity.collision_radius_m;
+  out.planner.validity.z_min_m = planner.validity.z_min_m;
+  return out;
+}
+
+std::string ceiling_key(const Scenario& scenario, const World& world,
+                        const LegalViewpoints& legal) {
+  Sha256 sha;
+  for (const TriangleMesh* mesh : {&world.structure, &world.obstacles, &world.terrain}) {
+    add_mesh(sha, *mesh);
+  }
+  Scenario rest = what_a_ceiling_depends_on(scenario);
+  rest.structure = {};
+  rest.structure.ground = world.has_ground;
+  rest.obstacles = {};
+  rest.terrain = {};
+  rest.seed = Scenario{}.seed;
+  rest.planner.profiling.file.clear();
+  if (rest.planner.profiling.method == ProfilingMethod::none) rest.start = {};
+  sha.add(to_yaml(rest));
+  sha.add(legal.step_m);
+  sha.add(std::uint64_t{legal.size()});
+  for (const Vec3& p_m : legal.p_world_m) sha.add(std::span<const double>(p_m.data(), 3));
+  for (const auto& cell : legal.cell) sha.add(std::span<const std::int32_t>(cell));
+  return sha.hex();
+}
+
+std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling,
+                         std::span<const OracleReach> reaches, double wall_s) {
+  nlohmann::ordered_json out = {{"schema", "gnbv-ceiling-1"},
+                                {"scenario", scenario.name},
+                                {"structure", structure_name(scenario.structure)},
+                                {"seed", scenario.seed},
+                                {"positions", ceiling.positions}};
+  for (const Row& row : rows_of(ceiling)) {
+    out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
+  }
+  if (!reaches.empty()) out["oracle"] = oracle_json(reaches);
+  out["wall_s"] = wall_s;
+  return out.dump(2) + "\n";
+}
+
+std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> reaches,
+                         double wall_s) {
+  std::string text =
+      fmt::format("{:<44}{:>9}{:>9}{:>9}\n", "share of the voxels", "0.05 m", "0.10 m", "0.50 m");
+  for (const Row& row : rows_of(ceiling)) {
+    text += fmt::format("{:<44}{:>7.1f} %{:>7.1f} %{:>7.1f} %\n", row.text, 100.0 * row.share[0],
+                        100.0 * row.share[1], 100.0 * row.share[2]);
+  }
+  text += fmt::format(
+      "{} legal positions and the places between them, {:.1f} s\n"
+      "of exact sensors, the profile's LIDAR among them: noise can lift a mission above it\n"
+      "a voxel counts with surface of a tenth of its face\n",
+      ceiling.positions, wall_s);
+  return reaches.empty() ? text : text + oracle_text(reaches);
 }
 
 }  // namespace gnbv

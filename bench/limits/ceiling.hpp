@@ -6,12 +6,16 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
 
+#include "bench/limits/legal_viewpoints.hpp"
 #include "scenarios/scenario.hpp"
-#include "sensors/ray_scene.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
+
+struct OracleReach;
 
 /// Shares of the reference voxels, by kCoverageSizes_m. No leaf share is above its like of what is
 /// seen.
@@ -35,5 +39,22 @@ Ceiling find_ceiling(const Scenario& scenario, const World& world, const RayScen
 /// no ceiling at all is cached.
 std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& world,
                                      const RayScene& scene, const ViewPose& start, int threads);
+
+/// A scenario with all that ceiling and survey depend on - structure, surroundings and ground,
+/// region, no_fly boxes, cameras and LIDARs (without their noise), profile and the start it is
+/// flown from, workspace and voxels, floor, leaf, collision radius, navigation box - and the
+/// defaults elsewhere: scenarios of which this is the same have one ceiling.
+Scenario what_a_ceiling_depends_on(const Scenario& scenario);
+
+/// SHA-256 over the same, with the meshes in the place of their names, and the legal positions with
+/// their cells in that of the seed.
+std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
+
+/// A ceiling as people and programs read it. `reaches` are what an oracle planned, if it was asked;
+/// it took `wall_s` to find all of it.
+std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> reaches,
+                         double wall_s);
+std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling,
+                         std::span<const OracleReach> reaches, double wall_s);
 
 }  // namespace gnbv

@@ -16,7 +16,7 @@ LatticeWays::LatticeWays(const RayScene& scene, const LegalViewpoints& legal, do
   for (const std::uint32_t place : legal.near_start) is_near_start[place] = 1;
   for (std::size_t place = 0; place <= start(); ++place) {
     const auto add = [&](std::size_t to) {
-      legs_.push_back({static_cast<std::uint32_t>(to), (p_world_m(to) - p_world_m(place)).norm()});
+      legs_.push_back({static_cast<std::uint32_t>(to), straight_m(place, to)});
     };
     for (const std::uint32_t to : place == start() ? legal.near_start : legal.neighbours[place]) {
       add(to);
@@ -92,8 +92,7 @@ bool LatticeWays::is_straight_clear(std::size_t from, std::size_t to) const {
 }
 
 Way LatticeWays::way(std::size_t from, std::size_t to) const {
-  const double straight_m = (p_world_m(to) - p_world_m(from)).norm();
-  if (from == to || is_straight_clear(from, to)) return {straight_m};
+  if (from == to || is_straight_clear(from, to)) return {straight_m(from, to)};
   const Tree& tree = trees_.at(from);
   GNBV_CHECK(std::isfinite(tree.length_m[to]), "no way from place {} to {}", from, to);
   std::vector<std::size_t> places = {to};
@@ -103,49 +102,30 @@ Way LatticeWays::way(std::size_t from, std::size_t to) const {
   for (std::size_t at = 0; at + 1 < places.size();) {
     std::size_t next = places.size() - 1;
     while (next > at + 1 && !is_straight_clear(places[at], places[next])) --next;
-    way.length_m += (p_world_m(places[next]) - p_world_m(places[at])).norm();
+    way.length_m += straight_m(places[at], places[next]);
     at = next;
     if (at + 1 < places.size()) way.via_world_m.push_back(p_world_m(places[at]));
   }
   return way;
 }
 
-double LatticeWays::straight_m(std::size_t from, std::size_t to) const {
-  return (p_world_m(to) - p_world_m(from)).norm();
-}
-
-double LatticeWays::guess_m(double straight_m, double lattice_m) const {
-  constexpr double kMostDetour = 1.13;  // of steps to 26 neighbours in free space
-  return lattice_m > kMostDetour * straight_m + 2.0 * legal_.step_m ? lattice_m : straight_m;
-}
-
-double LatticeWays::guess_m(std::size_t from, std::size_t to) const {
-  return guess_m(straight_m(from, to), trees_.at(from).length_m[to]);
-}
-
-double LatticeWays::distance_m(const Tree& tree, std::size_t from, std::size_t to) const {
-  const double straight_m = this->straight_m(from, to);
-  const double guess_m = this->guess_m(straight_m, tree.length_m[to]);
-  if (guess_m > straight_m || from == to || is_straight_clear(from, to)) return guess_m;
-  return std::max(tree.length_m[to], straight_m);
-}
-
-double LatticeWays::distance_m(std::size_t from, std::size_t to) const {
-  return distance_m(trees_.at(from), from, to);
-}
-
 std::vector<float> LatticeWays::distances_m(std::size_t from, std::span<const std::size_t> to,
                                             int threads) const {
-  constexpr double kFar_m = 12.0;  // few legs of a short tour are longer
+  constexpr double kFar_m = 12.0;       // few legs of a short tour are longer
+  constexpr double kMostDetour = 1.13;  // of steps to 26 neighbours in free space
   constexpr std::size_t kChunk = 64;
   const Tree tree = grow(from);
+  const auto distance_m = [&](std::size_t place) {
+    const double straight_m = this->straight_m(from, place);
+    const double lattice_m = tree.length_m[place];
+    if (lattice_m > kMostDetour * straight_m + 2.0 * legal_.step_m) return lattice_m;
+    const bool is_straight = straight_m > kFar_m || from == place || is_straight_clear(from, place);
+    return is_straight ? straight_m : std::max(lattice_m, straight_m);
+  };
   std::vector<float> distances_m(to.size());
   parallel_for_chunks(threads, to.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const double straight_m = this->straight_m(from, to[i]);
-      distances_m[i] =
-          static_cast<float>(straight_m > kFar_m ? guess_m(straight_m, tree.length_m[to[i]])
-                                                 : distance_m(tree, from, to[i]));
+      distances_m[i] = static_cast<float>(distance_m(to[i]));
     }
   });
   return distances_m;

@@ -25,22 +25,16 @@ class LatticeWays {
   std::size_t start() const { return legal_.size(); }
   const Vec3& p_world_m(std::size_t place) const;
 
-  /// Finds what the questions below need, for these places.
+  /// Finds what way() needs, from these places.
   void prepare(const std::vector<std::size_t>& from, int threads);
-
-  /// A quick guess of the way's length from a prepared place: straight, unless the lattice's way is
-  /// so much longer that something must be in between.
-  double guess_m(std::size_t from, std::size_t to) const;
 
   /// Straight when that keeps the radius; else along the lattice from `from`, a prepared place, cut
   /// short where a leg between its points keeps the radius, too.
   Way way(std::size_t from, std::size_t to) const;
 
-  /// The length of way() before it is cut short, in the same sense straight only if it may be.
-  double distance_m(std::size_t from, std::size_t to) const;
-
-  /// From a place, prepared or not, to each of the others: distance_m() as far as 12 m, beyond it
-  /// guess_m().
+  /// From a place, prepared or not, to each of the others: the length of way() before it is cut
+  /// short, straight only where that keeps the radius. Beyond 12 m a guess: straight, unless the
+  /// lattice's way is so much longer that something must be in between.
   std::vector<float> distances_m(std::size_t from, std::span<const std::size_t> to,
                                  int threads) const;
 
@@ -57,9 +51,9 @@ class LatticeWays {
     return std::span(legs_).subspan(first_leg_[place], first_leg_[place + 1] - first_leg_[place]);
   }
   Tree grow(std::size_t from) const;
-  double straight_m(std::size_t from, std::size_t to) const;
-  double guess_m(double straight_m, double lattice_m) const;
-  double distance_m(const Tree& tree, std::size_t from, std::size_t to) const;
+  double straight_m(std::size_t from, std::size_t to) const {
+    return (p_world_m(to) - p_world_m(from)).norm();
+  }
   bool is_straight_clear(std::size_t from, std::size_t to) const;
 
   const RayScene& scene_;

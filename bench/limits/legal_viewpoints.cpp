@@ -14,16 +14,6 @@ constexpr double kFinest_m = 0.01;  // half a piece of a leg that is not halved 
 constexpr double kMostSteps = 1e6;  // along an axis
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-bool is_piece_clear(const RayScene& scene, const Vec3& a_m, const Vec3& b_m, double radius_m) {
-  const Vec3 middle_m = 0.5 * (a_m + b_m);
-  const double half_m = 0.5 * (b_m - a_m).norm();
-  const double clear_m = scene.clearance_m(middle_m, radius_m + half_m);
-  if (clear_m - half_m >= radius_m) return true;
-  if (clear_m < radius_m || half_m <= kFinest_m) return false;
-  return is_piece_clear(scene, a_m, middle_m, radius_m) &&
-         is_piece_clear(scene, middle_m, b_m, radius_m);
-}
-
 /// The whole lattice of the box, and what is known of each of its nodes.
 class Lattice {
  public:
@@ -132,7 +122,13 @@ struct Search {
 
 bool is_leg_clear(const RayScene& scene, const Vec3& a_world_m, const Vec3& b_world_m,
                   double radius_m) {
-  return is_piece_clear(scene, a_world_m, b_world_m, radius_m);
+  const Vec3 middle_m = 0.5 * (a_world_m + b_world_m);
+  const double half_m = 0.5 * (b_world_m - a_world_m).norm();
+  const double clear_m = scene.clearance_m(middle_m, radius_m + half_m);
+  if (clear_m - half_m >= radius_m) return true;
+  if (clear_m < radius_m || half_m <= kFinest_m) return false;
+  return is_leg_clear(scene, a_world_m, middle_m, radius_m) &&
+         is_leg_clear(scene, middle_m, b_world_m, radius_m);
 }
 
 double lattice_step_m(const Box3& navigation_m) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/survey_task.hpp"
 #include "sim/core/error.hpp"

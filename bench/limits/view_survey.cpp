@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "bench/limits/cloud_of_views.hpp"
+#include "bench/score/content_cache.hpp"
+#include "bench/score/packed_numbers.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -114,6 +116,43 @@ ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
   survey.leaf_raw = coverage_at_all_sizes(reference.raw, cloud.points_world_m());
   survey.leaf_outside = coverage_at_all_sizes(reference.outside, cloud.points_world_m());
   return survey;
+}
+
+std::string bytes_of(const ViewSurvey& survey) {
+  std::string bytes;
+  append_bytes(bytes, survey.leaf_raw);
+  append_bytes(bytes, survey.leaf_outside);
+  put_count(bytes, survey.views.size());
+  for (const SurveyedView& view : survey.views) {
+    append_bytes(bytes, view.position);
+    append_bytes(bytes, view.yaw_rad);
+    append_bytes(bytes, view.gimbal_pitch_rad);
+    put_ascending(bytes, view.finds);
+  }
+  return bytes;
+}
+
+std::optional<ViewSurvey> survey_in(std::string_view bytes) {
+  PackedNumbers in(bytes);
+  ViewSurvey survey;
+  survey.leaf_raw = in.take<std::array<double, 3>>();
+  survey.leaf_outside = in.take<std::array<double, 3>>();
+  for (std::uint64_t views = in.take_count(); views > 0 && in.is_good(); --views) {
+    SurveyedView& view = survey.views.emplace_back();
+    view.position = in.take<std::uint32_t>();
+    view.yaw_rad = in.take<double>();
+    view.gimbal_pitch_rad = in.take<double>();
+    view.finds = in.take_ascending<std::uint32_t>();
+  }
+  if (!in.is_read()) return std::nullopt;
+  return survey;
+}
+
+ViewSurvey cached_survey(const std::string& key, const Scenario& scenario, const RayScene& scene,
+                         const LegalViewpoints& legal, const SurfaceReference& reference,
+                         int threads, const HeedStop& stop) {
+  return cached("view_survey", key, survey_in, bytes_of,
+                [&] { return survey_views(scenario, scene, legal, reference, threads, stop); });
 }
 
 }  // namespace gnbv

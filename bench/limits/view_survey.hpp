@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/limits/legal_viewpoints.hpp"
@@ -36,5 +39,14 @@ struct ViewSurvey {
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
                         const LegalViewpoints& legal, const SurfaceReference& reference,
                         int threads, const HeedStop& stop = {});
+
+/// The same from the cache (content_cache.hpp), where it is kept by that key (ceiling_key()).
+ViewSurvey cached_survey(const std::string& key, const Scenario& scenario, const RayScene& scene,
+                         const LegalViewpoints& legal, const SurfaceReference& reference,
+                         int threads, const HeedStop& stop = {});
+
+/// About a byte and a half a voxel that a view finds.
+std::string bytes_of(const ViewSurvey& survey);
+std::optional<ViewSurvey> survey_in(std::string_view bytes);
 
 }  // namespace gnbv

@@ -87,28 +87,13 @@ std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& referen
   return shares;
 }
 
-struct CoverageMeter::Count {
-  UnmetVoxels unmet;
-  std::size_t all;
-  double size_m;
-  std::size_t met = 0;
-  std::size_t looked_at = 0;  // points
-};
-
-CoverageMeter::CoverageMeter(const VoxelSet& reference, double size_m)
-    : count_(new Count{UnmetVoxels(reference, reference), reference.size(), size_m}) {}
-
-CoverageMeter::~CoverageMeter() = default;
-
 double CoverageMeter::share_of(std::span<const Vec3f> cloud_world_m) {
-  Count& c = *count_;
-  GNBV_CHECK(cloud_world_m.size() >= c.looked_at, "a cloud shrank from {} to {} points",
-             c.looked_at, cloud_world_m.size());
-  for (; c.looked_at < cloud_world_m.size(); ++c.looked_at) {
-    const std::uint64_t code = voxel_code(cloud_world_m[c.looked_at], c.size_m);
-    if (c.unmet.meet(code) == UnmetVoxels::kOutside) ++c.met;
+  GNBV_CHECK(cloud_world_m.size() >= looked_at_, "a cloud shrank from {} to {} points", looked_at_,
+             cloud_world_m.size());
+  for (; looked_at_ < cloud_world_m.size(); ++looked_at_) {
+    unmet_.erase(voxel_code(cloud_world_m[looked_at_], size_m_));
   }
-  return gnbv::share_of(c.met, c.all);
+  return gnbv::share_of(all_ - unmet_.size(), all_);
 }
 
 }  // namespace gnbv

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "bench/score/surface_reference.hpp"
@@ -29,18 +29,18 @@ std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& referen
 /// Counts while a cloud grows what its points cover of one set of voxels.
 class CoverageMeter {
  public:
-  CoverageMeter(const VoxelSet& reference, double size_m);
-  ~CoverageMeter();
-  CoverageMeter(const CoverageMeter&) = delete;
-  CoverageMeter& operator=(const CoverageMeter&) = delete;
+  CoverageMeter(const VoxelSet& reference, double size_m)
+      : unmet_(reference.begin(), reference.end()), all_(reference.size()), size_m_(size_m) {}
 
   /// Share that the cloud covers, equal to coverage() of its voxels. Looks at the points behind
   /// those of the call before, which have to be the cloud's first.
   double share_of(std::span<const Vec3f> cloud_world_m);
 
  private:
-  struct Count;
-  std::unique_ptr<Count> count_;
+  std::unordered_set<std::uint64_t> unmet_;
+  std::size_t all_;
+  double size_m_;
+  std::size_t looked_at_ = 0;  // points
 };
 
 }  // namespace gnbv

@@ -112,12 +112,9 @@ std::array<VoxelSet, 3> at_all_sizes(VoxelSet finest) {
 
 double coverage(const VoxelSet& reference, const VoxelSet& cloud) {
   if (reference.empty()) return 0.0;
-  std::size_t covered = 0;
-  auto c = cloud.begin();
-  for (const std::uint64_t voxel : reference) {
-    while (c != cloud.end() && *c < voxel) ++c;
-    if (c != cloud.end() && *c == voxel) ++covered;
-  }
+  const auto covered = std::count_if(reference.begin(), reference.end(), [&](std::uint64_t voxel) {
+    return std::binary_search(cloud.begin(), cloud.end(), voxel);
+  });
   return static_cast<double>(covered) / static_cast<double>(reference.size());
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "bench/limits/ceiling_text.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"

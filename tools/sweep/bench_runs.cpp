@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"

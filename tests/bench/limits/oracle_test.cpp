@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/lattice_ways.hpp"
 #include "planner/motion/paths.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/limits/ceiling_cache.hpp"
+#include "bench/limits/ceiling.hpp"
 #include "bench/limits/free_yaw_camera.hpp"
 #include "bench/limits/lattice_ways.hpp"
 #include "bench/limits/legal_viewpoints.hpp"
