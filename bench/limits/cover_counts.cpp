@@ -1,16 +1,15 @@
 #include "bench/limits/cover_counts.hpp"
 
 #include <limits>
-#include <utility>
 
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 
-CoverSets::CoverSets(std::vector<const std::vector<std::uint32_t>*> sets, std::size_t items)
-    : sets_(std::move(sets)), first_(items + 1, 0) {
-  for (const auto* set : sets_) {
-    for (const std::uint32_t item : *set) {
+CoverSets::CoverSets(std::span<const std::vector<std::uint32_t>> sets, std::size_t items)
+    : sets_(sets), first_(items + 1, 0) {
+  for (const auto& set : sets_) {
+    for (const std::uint32_t item : set) {
       GNBV_CHECK(item < items, "item {} of {}", item, items);
       ++first_[item + 1];
     }
@@ -19,7 +18,7 @@ CoverSets::CoverSets(std::vector<const std::vector<std::uint32_t>*> sets, std::s
   holders_.resize(first_[items]);
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t set = 0; set < sets_.size(); ++set) {
-    for (const std::uint32_t item : *sets_[set]) {
+    for (const std::uint32_t item : sets_[set]) {
       holders_[next[item]++] = static_cast<std::uint32_t>(set);
     }
   }

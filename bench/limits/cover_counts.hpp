@@ -11,18 +11,18 @@ namespace gnbv {
 /// Sets of items, and for each item the sets that hold it.
 class CoverSets {
  public:
-  /// Keeps the pointers to the sets, which hold items in [0, items), each once.
-  CoverSets(std::vector<const std::vector<std::uint32_t>*> sets, std::size_t items);
+  /// Keeps the span of the sets, which hold items in [0, items), each once.
+  CoverSets(std::span<const std::vector<std::uint32_t>> sets, std::size_t items);
 
   std::size_t size() const { return sets_.size(); }
   std::size_t items() const { return first_.size() - 1; }
-  std::span<const std::uint32_t> items_of(std::size_t set) const { return *sets_[set]; }
+  std::span<const std::uint32_t> items_of(std::size_t set) const { return sets_[set]; }
   std::span<const std::uint32_t> sets_with(std::size_t item) const {
     return std::span(holders_).subspan(first_[item], first_[item + 1] - first_[item]);
   }
 
  private:
-  std::vector<const std::vector<std::uint32_t>*> sets_;
+  std::span<const std::vector<std::uint32_t>> sets_;
   std::vector<std::size_t> first_;  // of each item, and the end of the last: into holders_
   std::vector<std::uint32_t> holders_;
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/tour/waypoints.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -24,7 +23,7 @@ class OpenTour {
 
   const CoverCounts& counts() const { return counts_; }
   const std::vector<std::uint32_t>& chosen() const { return chosen_; }
-  const Waypoints& waypoints() const { return waypoints_; }
+  Waypoints& waypoints() { return waypoints_; }
 
   double cost_m(const CoverAim& aim) const {
     return waypoints_.length_m() + aim.metres_per_view * static_cast<double>(chosen_.size());
@@ -65,8 +64,6 @@ class OpenTour {
     return true;
   }
 
-  void find_detours() { waypoints_.find_detours(); }
-
   /// Views that what is wanted can do without go, those first that save the most.
   void drop_needless(const CoverAim& aim) {
     while (counts_.covered() >= aim.wanted) {
@@ -84,8 +81,6 @@ class OpenTour {
       remove(*worst);
     }
   }
-
-  void shorten(int kicks = 0) { waypoints_.shorten(kicks); }
 
  private:
   std::uint32_t place_of(std::uint32_t view) const { return task_->place[view]; }
@@ -110,7 +105,7 @@ class OpenTour {
 
 void complete(OpenTour& tour, const CoverAim& aim, double metres_per_view,
               std::span<const double> weights) {
-  tour.find_detours();
+  tour.waypoints().find_detours();
   while (tour.counts().covered() < aim.wanted) {
     if (!tour.add_best(aim, metres_per_view, weights)) return;
   }
@@ -124,11 +119,11 @@ double cost_m(const CoveringTour& tour, const CoverAim& aim) {
 
 CoveringTour greedy_tour(const CoverTask& task, const CoverAim& aim) {
   OpenTour tour(task);
-  tour.find_detours();
+  tour.waypoints().find_detours();
   while (tour.counts().covered() < aim.wanted && tour.add_best(aim, aim.metres_per_view, {})) {
     heed(task.stop);
-    tour.shorten();
-    tour.find_detours();
+    tour.waypoints().shorten();
+    tour.waypoints().find_detours();
   }
   return tour.made();
 }
@@ -158,7 +153,7 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
     if (trial.counts().covered() < std::min(aim.wanted, current.counts().covered())) continue;
     double trial_m = trial.cost_m(aim);
     if (trial_m < best_m - kLeast_m) {
-      trial.shorten();
+      trial.waypoints().shorten();
       trial_m = trial.cost_m(aim);
     }
     const double heat_m =
@@ -170,7 +165,7 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
     best = current;
     best_m = current_m;
   }
-  best.shorten(iterations / 40);
+  best.waypoints().shorten(iterations / 40);
   return best.made();
 }
 

@@ -213,35 +213,34 @@ class SlabSearch {
       const bool is_worth = is_outside || (has(reference_.raw[0], of[i]->code) &&
                                            (kind == 0 || of[i]->points_m[0].empty()));
       if (!items[i].is_seen() && is_worth) search_closely(is_outside, items[i]);
-      if (!items[i].is_seen()) continue;
-      of[i]->is_seen = true;
-      kept_m.push_back(of[i]->kept_m[kind][items[i].seen]);
+      if (items[i].is_seen()) keep(*of[i], kind, items[i].seen, kept_m);
     }
   }
 
   /// Asks all samples of the voxels of the outside that are still not seen from all positions.
   void settle_rest(std::span<const Vec3> near_m, std::vector<Voxel>& voxels,
                    std::vector<Vec3f>& kept_m) const {
-    const auto all = [](const std::array<std::vector<Vec3f>, 2>& kinds_m) {
-      std::vector<Vec3f> both_m = kinds_m[0];
-      both_m.insert(both_m.end(), kinds_m[1].begin(), kinds_m[1].end());
-      return both_m;
-    };
     std::vector<Voxel*> of;
     std::vector<std::vector<Vec3f>> points_m;
     for (Voxel& voxel : voxels) {
       if (voxel.is_seen || !has(reference_.outside[0], voxel.code)) continue;
       of.push_back(&voxel);
-      points_m.push_back(all(voxel.points_m));
+      auto& both_m = points_m.emplace_back(voxel.points_m[0]);
+      both_m.insert(both_m.end(), voxel.points_m[1].begin(), voxel.points_m[1].end());
     }
     std::vector<SightItem> items;
     for (const auto& some_m : points_m) items.push_back({.points_world_m = some_m});
     cameras_.look_from_lattice(near_m, SightSearch::Positions::others, items);
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (!items[i].is_seen()) continue;
-      of[i]->is_seen = true;
-      kept_m.push_back(all(of[i]->kept_m)[items[i].seen]);
+      const std::size_t first = of[i]->points_m[0].size();
+      const std::size_t kind = items[i].seen < first ? 0 : 1;
+      if (items[i].is_seen()) keep(*of[i], kind, items[i].seen - kind * first, kept_m);
     }
+  }
+
+  static void keep(Voxel& voxel, std::size_t kind, std::size_t point, std::vector<Vec3f>& kept_m) {
+    voxel.is_seen = true;
+    kept_m.push_back(voxel.kept_m[kind][point]);
   }
 
   static bool has(const VoxelSet& set, std::uint64_t code) {

@@ -21,23 +21,11 @@ std::vector<std::uint32_t> sample_of(std::size_t voxels) {
   return item;
 }
 
-std::vector<const std::vector<std::uint32_t>*> pointers(
-    const std::vector<std::vector<std::uint32_t>>& sets) {
-  std::vector<const std::vector<std::uint32_t>*> out;
-  for (const auto& set : sets) out.push_back(&set);
-  return out;
-}
-
 }  // namespace
 
 SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways,
                        int threads)
-    : ways_(ways),
-      threads_(threads),
-      item_(sample_of(voxels)),
-      items_(voxels - static_cast<std::size_t>(std::count(item_.begin(), item_.end(), kNoIndex))),
-      finds_(sampled_finds(survey)),
-      sets_(pointers(finds_), items_) {
+    : ways_(ways), threads_(threads), item_(sample_of(voxels)) {
   std::vector<std::uint32_t> index(ways.start(), kNoIndex);
   for (const SurveyedView& view : survey.views) {
     if (index[view.position] == kNoIndex) {
@@ -45,7 +33,10 @@ SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const Latti
       lattice_place_.push_back(view.position);
     }
     place_.push_back(index[view.position]);
+    finds_.push_back(sampled(view.finds));
   }
+  const auto left_out = std::count(item_.begin(), item_.end(), kNoIndex);
+  sets_ = CoverSets(finds_, voxels - static_cast<std::size_t>(left_out));
   lattice_place_.push_back(ways.start());
   rows_m_.resize(lattice_place_.size());
 }
@@ -56,12 +47,6 @@ std::vector<std::uint32_t> SurveyTask::sampled(std::span<const std::uint32_t> vo
     if (item_[voxel] != kNoIndex) items.push_back(item_[voxel]);
   }
   return items;
-}
-
-std::vector<std::vector<std::uint32_t>> SurveyTask::sampled_finds(const ViewSurvey& survey) const {
-  std::vector<std::vector<std::uint32_t>> finds;
-  for (const SurveyedView& view : survey.views) finds.push_back(sampled(view.finds));
-  return finds;
 }
 
 CoverTask SurveyTask::task(std::span<const std::uint32_t> found_at_start) {

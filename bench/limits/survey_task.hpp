@@ -29,15 +29,13 @@ class SurveyTask {
 
  private:
   std::vector<std::uint32_t> sampled(std::span<const std::uint32_t> voxels) const;
-  std::vector<std::vector<std::uint32_t>> sampled_finds(const ViewSurvey& survey) const;
   std::span<const float> row_m(std::uint32_t place);
 
   const LatticeWays& ways_;
   int threads_;
-  std::vector<std::uint32_t> item_;  // of each voxel; kNone: not in the sample
-  std::size_t items_ = 0;
+  std::vector<std::uint32_t> item_;                // of each voxel; kNone: not in the sample
   std::vector<std::vector<std::uint32_t>> finds_;  // items of each view
-  CoverSets sets_;
+  CoverSets sets_{{}, 0};
   std::vector<std::uint32_t> place_;  // of each view
   std::vector<std::size_t> lattice_place_;
   std::vector<std::vector<float>> rows_m_;  // of each place; empty: not asked for

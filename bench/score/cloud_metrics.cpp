@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "bench/score/point_tree.hpp"
@@ -17,94 +16,45 @@ namespace {
 
 constexpr std::size_t kChunk = 8192;
 
-double nearest_m(const PointTree& cloud, std::span<const Vec3f> cloud_m, const Vec3f& p_m) {
-  std::array<Neighbour, 1> room;
-  const auto found = cloud.nearest(p_m, room, static_cast<float>(kFarthest_m));
-  if (found.empty()) return kFarthest_m;
-  const double distance_m = (cloud_m[found[0].point] - p_m).cast<double>().norm();
-  return std::min(distance_m, kFarthest_m);
-}
-
-/// Of some distances: how many are below each of kScoreDistances_m, and their sum.
-struct Tally {
-  std::array<std::size_t, 3> below{};
-  double sum_m = 0.0;
-
-  void add(double distance_m) {
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      if (distance_m < kScoreDistances_m[i]) ++below[i];
+/// Of all distances, which are asked for in any order and summed up in theirs.
+template <typename Distance>
+DistanceShares shares_of(std::span<const Vec3f> points_m, int threads, const Distance& distance_m) {
+  struct Tally {
+    std::array<std::size_t, 3> below{};
+    double sum_m = 0.0;
+  };
+  std::vector<Tally> tallies((points_m.size() + kChunk - 1) / kChunk);
+  parallel_for_chunks(threads, points_m.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    Tally& tally = tallies[begin / kChunk];
+    for (std::size_t i = begin; i < end; ++i) {
+      const double m = std::min(distance_m(points_m[i]), kFarthest_m);
+      for (std::size_t k = 0; k < 3; ++k) tally.below[k] += m < kScoreDistances_m[k] ? 1 : 0;
+      tally.sum_m += m;
     }
-    sum_m += distance_m;
-  }
-};
-
-/// All tallies in their order, as shares of `count` and their mean.
-struct Shares {
-  std::array<double, 3> below{};
-  double mean_m = kFarthest_m;
-};
-
-Shares shares_of(std::span<const Tally> tallies, std::size_t count) {
-  Shares shares;
-  if (count == 0) return shares;
+  });
+  DistanceShares shares;
+  if (points_m.empty()) return shares;
+  const auto count = static_cast<double>(points_m.size());
   Tally all;
   for (const Tally& tally : tallies) {
-    for (std::size_t i = 0; i < all.below.size(); ++i) all.below[i] += tally.below[i];
+    for (std::size_t k = 0; k < 3; ++k) all.below[k] += tally.below[k];
     all.sum_m += tally.sum_m;
   }
-  for (std::size_t i = 0; i < all.below.size(); ++i) {
-    shares.below[i] = static_cast<double>(all.below[i]) / static_cast<double>(count);
-  }
-  shares.mean_m = all.sum_m / static_cast<double>(count);
+  for (std::size_t k = 0; k < 3; ++k) shares.below[k] = static_cast<double>(all.below[k]) / count;
+  shares.mean_m = all.sum_m / count;
   return shares;
-}
-
-template <typename Distance>
-Tally tally_of(std::span<const Vec3f> points_m, std::size_t chunk, const Distance& distance_m) {
-  Tally tally;
-  const std::size_t end = std::min(points_m.size(), (chunk + 1) * kChunk);
-  for (std::size_t i = chunk * kChunk; i < end; ++i) tally.add(distance_m(points_m[i]));
-  return tally;
-}
-
-double to_surface_m(const RayScene& scene, const Vec3f& p_m) {
-  return std::min(scene.distance_to_structure_m(p_m.cast<double>(), kFarthest_m), kFarthest_m);
-}
-
-std::size_t chunks_of(std::span<const Vec3f> points_m) {
-  return (points_m.size() + kChunk - 1) / kChunk;
 }
 
 }  // namespace
 
-CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
-                               std::span<const Vec3f> samples_world_m, int threads) {
-  return cloud_distances(scene, cloud_world_m, cloud_world_m, samples_world_m, threads);
+DistanceShares shares_to_structure(const RayScene& scene, std::span<const Vec3f> points_world_m,
+                                   int threads) {
+  return shares_of(points_world_m, threads, [&](const Vec3f& p_m) {
+    return scene.distance_to_structure_m(p_m.cast<double>(), kFarthest_m);
+  });
 }
 
-CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
-                               std::span<const Vec3f> judged_world_m,
-                               std::span<const Vec3f> samples_world_m, int threads) {
-  std::optional<PointTree> tree;
-  std::vector<Tally> precise(chunks_of(judged_world_m));
-  // the tree is one task beside those that need none
-  parallel_for(threads, precise.size() + 1, [&](std::size_t task) {
-    if (task == 0) {
-      tree.emplace(cloud_world_m);
-      return;
-    }
-    precise[task - 1] = tally_of(judged_world_m, task - 1,
-                                 [&](const Vec3f& p_m) { return to_surface_m(scene, p_m); });
-  });
-  std::vector<Tally> recalled(chunks_of(samples_world_m));
-  parallel_for(threads, recalled.size(), [&](std::size_t chunk) {
-    recalled[chunk] = tally_of(samples_world_m, chunk, [&](const Vec3f& p_m) {
-      return nearest_m(*tree, cloud_world_m, p_m);
-    });
-  });
-
-  const Shares precision = shares_of(precise, judged_world_m.size());
-  const Shares recall = shares_of(recalled, samples_world_m.size());
+CloudDistances cloud_distances(const DistanceShares& precision, const DistanceShares& recall) {
   CloudDistances out;
   for (std::size_t i = 0; i < out.at.size(); ++i) {
     const double p = precision.below[i];
@@ -117,6 +67,20 @@ CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> clo
   return out;
 }
 
+CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
+                               std::span<const Vec3f> judged_world_m,
+                               std::span<const Vec3f> samples_world_m, int threads) {
+  const PointTree tree(cloud_world_m);
+  const auto nearest_m = [&](const Vec3f& p_m) {
+    std::array<Neighbour, 1> room;
+    const auto found = tree.nearest(p_m, room, static_cast<float>(kFarthest_m));
+    if (found.empty()) return kFarthest_m;
+    return (cloud_world_m[found[0].point] - p_m).cast<double>().norm();
+  };
+  return cloud_distances(shares_to_structure(scene, judged_world_m, threads),
+                         shares_of(samples_world_m, threads, nearest_m));
+}
+
 CloudDensity cloud_density(std::span<const Vec3f> cloud_world_m, double voxel_m) {
   GNBV_CHECK(voxel_m > 0.0, "voxel size {} m", voxel_m);
   std::vector<std::uint64_t> codes;
@@ -125,9 +89,8 @@ CloudDensity cloud_density(std::span<const Vec3f> cloud_world_m, double voxel_m)
   std::sort(codes.begin(), codes.end());
   double voxels = 0.0;
   double sum_of_squares = 0.0;
-  for (std::size_t begin = 0; begin < codes.size();) {
-    std::size_t end = begin;
-    while (end < codes.size() && codes[end] == codes[begin]) ++end;
+  for (auto begin = codes.begin(); begin != codes.end();) {
+    const auto end = std::upper_bound(begin, codes.end(), *begin);
     const auto points = static_cast<double>(end - begin);
     voxels += 1.0;
     sum_of_squares += points * points;
@@ -145,17 +108,14 @@ std::vector<std::uint8_t> points_of_structure(const RayScene& scene,
                                               std::span<const Vec3f> points_world_m, int threads) {
   std::vector<std::uint8_t> is_kept(points_world_m.size(), 1);
   if (!scene.has_obstacles() && !scene.has_terrain()) return is_kept;
-  constexpr std::size_t kPoints = 4096;  // a task
-  parallel_for_chunks(threads, points_world_m.size(), kPoints,
-                      [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t i = begin; i < end; ++i) {
-                          const Vec3 p_m = points_world_m[i].cast<double>();
-                          const double other_m = scene.distance_to_surroundings_m(p_m, kFarthest_m);
-                          if (other_m > kFarthest_m) continue;
-                          const double own_m = scene.distance_to_structure_m(p_m, kFarthest_m);
-                          is_kept[i] = own_m <= other_m ? 1 : 0;
-                        }
-                      });
+  parallel_for_chunks(threads, is_kept.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 p_m = points_world_m[i].cast<double>();
+      const double other_m = scene.distance_to_surroundings_m(p_m, kFarthest_m);
+      if (other_m > kFarthest_m) continue;
+      is_kept[i] = scene.distance_to_structure_m(p_m, kFarthest_m) <= other_m ? 1 : 0;
+    }
+  });
   return is_kept;
 }
 

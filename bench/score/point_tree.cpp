@@ -1,6 +1,7 @@
 #include "bench/score/point_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nanoflann.hpp>
 
@@ -86,6 +87,11 @@ std::span<const Neighbour> PointTree::nearest(const Vec3f& p_m, std::span<Neighb
     neighbour.distance_m = std::sqrt(neighbour.distance_m);
   }
   return found.first(set.count());
+}
+
+std::optional<Neighbour> PointTree::nearest(const Vec3f& p_m) const {
+  std::array<Neighbour, 1> found{};
+  return nearest(p_m, found).empty() ? std::nullopt : std::optional(found[0]);
 }
 
 }  // namespace gnbv

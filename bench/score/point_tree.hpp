@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "sim/core/pose.hpp"
@@ -29,6 +30,9 @@ class PointTree {
   /// nearer than `below_m`.
   std::span<const Neighbour> nearest(const Vec3f& p_m, std::span<Neighbour> found,
                                      float below_m = std::numeric_limits<float>::infinity()) const;
+
+  /// The nearest of all; nothing without points.
+  std::optional<Neighbour> nearest(const Vec3f& p_m) const;
 
  private:
   struct Impl;

@@ -10,7 +10,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/surface/made_surface.hpp"
+#include "tools/surface/surface.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/width.hpp"

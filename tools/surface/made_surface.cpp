@@ -1,14 +1,13 @@
-#include "tools/surface/made_surface.hpp"
-
+// make_surface() of surface.hpp.
 #include <unistd.h>
 
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/parallel.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/run/run_inputs.hpp"
+#include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"
 
 namespace gnbv {
@@ -57,11 +56,9 @@ std::vector<double> errors_m(const TriangleMesh& mesh, const World& truth, int t
   const RayScene scene(truth);
   std::vector<double> errors(mesh.vertices_m.size());
   constexpr double kMost_m = 0.05;
-  parallel_for_chunks(threads, errors.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 p_m = mesh.vertices_m[i].cast<double>();
-      errors[i] = std::min(kMost_m, scene.distance_to_structure_m(p_m, kMost_m));
-    }
+  for_each_point(threads, errors.size(), [&](std::size_t i) {
+    const Vec3 p_m = mesh.vertices_m[i].cast<double>();
+    errors[i] = std::min(kMost_m, scene.distance_to_structure_m(p_m, kMost_m));
   });
   return errors;
 }
@@ -71,23 +68,21 @@ std::vector<fs::path> write_all(const TexturedMesh& mesh, const std::optional<Su
                                 const std::optional<World>& truth, const std::string& title,
                                 const fs::path& folder, int threads) {
   std::vector<fs::path> paths = write_surface(mesh, folder);
-  paths.push_back(folder / "preview.png");
-  write_png(surface_picture(mesh, title, 1280, 720), paths.back());
-  if (truth) {
-    paths.push_back(folder / "error.png");
-    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), title, 1280, 720),
-              paths.back());
-  } else {
+  const auto write = [&](const char* name, bool is_known, const auto& write_to) {
     std::error_code ignored;
-    fs::remove(folder / "error.png", ignored);
-  }
-  if (score) {
-    paths.push_back(folder / "score.json");
-    write_file_atomically(paths.back(), score_json(*score));
-  } else {
-    std::error_code ignored;
-    fs::remove(folder / "score.json", ignored);
-  }
+    if (is_known) {
+      write_to(paths.emplace_back(folder / name));
+    } else {
+      fs::remove(folder / name, ignored);
+    }
+  };
+  write("preview.png", true,
+        [&](const fs::path& path) { write_png(surface_picture(mesh, title), path); });
+  write("error.png", truth.has_value(), [&](const fs::path& path) {
+    write_png(error_picture(mesh.shape, errors_m(mesh.shape, *truth, threads), title), path);
+  });
+  write("score.json", score.has_value(),
+        [&](const fs::path& path) { write_file_atomically(path, score_json(*score)); });
   return paths;
 }
 

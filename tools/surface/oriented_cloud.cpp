@@ -7,7 +7,6 @@
 
 #include "bench/score/point_tree.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/parallel.hpp"
 
 namespace gnbv {
 namespace {
@@ -80,15 +79,8 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
   GNBV_CHECK(points_m.size() == seen.sensors_world_m.size(), "{} points, {} sensors",
              points_m.size(), seen.sensors_world_m.size());
   const PointTree tree(points_m);
-  const auto for_each_point = [&](const auto& task) {
-    parallel_for_chunks(threads, points_m.size(), kPointsAtOnce,
-                        [&](std::size_t begin, std::size_t end) {
-                          for (std::size_t i = begin; i < end; ++i) task(i);
-                        });
-  };
-
   std::vector<Normal> normals(points_m.size());
-  for_each_point([&](std::size_t i) {
+  for_each_point(threads, points_m.size(), [&](std::size_t i) {
     std::array<Neighbour, kNeighbours> neighbours{};
     const std::size_t count = tree.nearest(points_m[i], neighbours).size();
     const std::span<Neighbour> found = std::span(neighbours).first(count);
@@ -105,7 +97,7 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
   });
 
   std::vector<Vec3f> settled_normals(points_m.size());
-  for_each_point([&](std::size_t i) {
+  for_each_point(threads, points_m.size(), [&](std::size_t i) {
     settled_normals[i] = normals[i].unit;
     if (normals[i].cosine >= kSureCosine) return;
     std::array<Neighbour, kNeighbours> neighbours{};

@@ -4,12 +4,19 @@
 #include <span>
 #include <vector>
 
+#include "sim/core/parallel.hpp"
 #include "tools/run/run_record.hpp"
 
 namespace gnbv {
 
-/// How many points a task of this room takes at once.
-constexpr std::size_t kPointsAtOnce = 4096;
+/// task(0) ... task(count - 1), some thousands at once on each thread.
+template <typename Task>
+void for_each_point(int threads, std::size_t count, const Task& task) {
+  constexpr std::size_t kAtOnce = 4096;
+  parallel_for_chunks(threads, count, kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) task(i);
+  });
+}
 
 /// Points with the place of the sensor that saw each.
 struct SeenPoints {

@@ -6,7 +6,6 @@
 #include "bench/score/point_tree.hpp"
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/parallel.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/surface/oriented_cloud.hpp"
 
@@ -56,10 +55,9 @@ bool is_hidden(const Vec3f& p_m, const Vec3f& sensor_m, const PointTree& cloud, 
   constexpr float kLookAhead_m = 4.0F;
   const Vec3f way_m = sensor_m - p_m;
   const float end_m = std::min(way_m.norm(), kLookAhead_m);
-  std::array<Neighbour, 1> nearest{};
   for (float s_m = 3.0F * leaf_m; s_m < end_m; s_m += 1.5F * leaf_m) {
-    const auto found = cloud.nearest(p_m + s_m * way_m.normalized(), nearest);
-    if (!found.empty() && found[0].distance_m < leaf_m) return true;
+    const auto found = cloud.nearest(p_m + s_m * way_m.normalized());
+    if (found && found->distance_m < leaf_m) return true;
   }
   return false;
 }
@@ -75,18 +73,16 @@ struct Stretch {
 void find_sensors(const PointTree& cloud, const Stretch& stretch, float leaf_m, int threads,
                   SeenPoints& seen) {
   const PointTree poses(stretch.poses_world_m);
-  const std::size_t count = stretch.end - stretch.begin;
-  parallel_for_chunks(threads, count, kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
+  for_each_point(threads, stretch.end - stretch.begin, [&](std::size_t index) {
+    const std::size_t i = stretch.begin + index;
+    const Vec3f& p_m = seen.points_world_m[i];
     std::array<Neighbour, 32> near_poses{};
-    for (std::size_t i = stretch.begin + begin; i < stretch.begin + end; ++i) {
-      const Vec3f& p_m = seen.points_world_m[i];
-      const auto found = poses.nearest(p_m, near_poses);
-      const auto seeing = std::find_if(found.begin(), found.end(), [&](const Neighbour& pose) {
-        return !is_hidden(p_m, stretch.poses_world_m[pose.point], cloud, leaf_m);
-      });
-      const Neighbour& chosen = seeing == found.end() ? found.front() : *seeing;
-      seen.sensors_world_m[i] = stretch.poses_world_m[chosen.point];
-    }
+    const auto found = poses.nearest(p_m, near_poses);
+    const auto seeing = std::find_if(found.begin(), found.end(), [&](const Neighbour& pose) {
+      return !is_hidden(p_m, stretch.poses_world_m[pose.point], cloud, leaf_m);
+    });
+    const Neighbour& chosen = seeing == found.end() ? found.front() : *seeing;
+    seen.sensors_world_m[i] = stretch.poses_world_m[chosen.point];
   });
 }
 
@@ -95,14 +91,10 @@ std::vector<Vec3f> uncovered_profile(const RunCloud& cloud, float leaf_m, int th
   const std::span<const Vec3f> all = cloud.points_world_m;
   const PointTree tree(all.subspan(cloud.profile_points));
   std::vector<std::uint8_t> is_covered(cloud.profile_points);
-  parallel_for_chunks(threads, is_covered.size(), kPointsAtOnce,
-                      [&](std::size_t begin, std::size_t end) {
-                        std::array<Neighbour, 1> nearest{};
-                        for (std::size_t i = begin; i < end; ++i) {
-                          const auto found = tree.nearest(all[i], nearest);
-                          is_covered[i] = !found.empty() && found[0].distance_m < leaf_m ? 1 : 0;
-                        }
-                      });
+  for_each_point(threads, is_covered.size(), [&](std::size_t i) {
+    const auto found = tree.nearest(all[i]);
+    is_covered[i] = found && found->distance_m < leaf_m ? 1 : 0;
+  });
   std::vector<Vec3f> kept;
   for (std::size_t i = 0; i < is_covered.size(); ++i) {
     if (is_covered[i] == 0) kept.push_back(all[i]);

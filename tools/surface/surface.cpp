@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "sim/core/module.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/surface/decimate.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/trim.hpp"
 
@@ -17,19 +17,81 @@ constexpr double kCell_leaves = 1.5;
 constexpr double kTexelsPerLeaf = 4.0;
 constexpr double kScrapSide_leaves = 10.0;  // parts smaller than this square are dropped
 
-/// Colours of the vertices are those of the texture; without it, its atlas goes.
-void drop_texture(TexturedMesh& mesh) {
-  mesh.face_uv.clear();
-  mesh.atlas = {};
-}
-
 /// What is wrong with the pictures, and how to come by better ones.
 std::string without_pictures(const RunRecord& record, std::string_view why) {
   return fmt::format("{}; colours show the height; {} flies it again and keeps its frames", why,
                      command_to_fly_again(record.folder, "--frames"));
 }
 
+/// The frames of a run, and each as a view of the surface.
+struct RunPictures {
+  FrameRecord frames;
+  std::vector<TextureView> views;
+};
+
+/// Nothing when the run has no frames, or one is damaged. Depth images are read, pictures not yet.
+std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
+                                         std::vector<std::string>& notes) {
+  if (!has_frames(record.folder)) {
+    notes.push_back(
+        without_pictures(record, fmt::format("{}: has no frames", record.folder.string())));
+    return std::nullopt;
+  }
+  try {
+    FrameRecord frames = read_frames(record.folder);
+    std::vector<TextureView> views = texture_views(frames, record.scenario.cameras, threads);
+    return RunPictures{std::move(frames), std::move(views)};
+  } catch (const BadInput& error) {
+    notes.push_back(without_pictures(record, error.what()));
+    return std::nullopt;
+  }
+}
+
+/// The shape with the run's pictures on it; with colours by height when none shows any of it or a
+/// picture is damaged.
+TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictures& pictures,
+                     const SurfaceSettings& settings, int threads, const SurfaceProgress& progress,
+                     std::vector<std::string>& notes) {
+  const std::vector<TextureView>& views = pictures.views;
+  const double texels_per_m = kTexelsPerLeaf / record.scenario.planner.cloud.leaf_m;
+  progress(0.65, fmt::format("choosing among {} pictures for {} faces", views.size(),
+                             shape.faces.size()));
+  const RayScene scene(World{.structure = shape, .has_ground = false});
+  const std::vector<std::int32_t> chosen =
+      choose_views(shape, scene, views, {.texels_per_m = texels_per_m}, threads);
+  const AtlasLayout layout = lay_out_atlas(
+      shape, chosen, views, {.texels_per_m = texels_per_m, .max_side_px = settings.texture_px});
+  if (layout.charts.empty()) {
+    notes.push_back(fmt::format("{}: no picture shows the surface; colours show the height",
+                                (record.folder / kFramesFolder).string()));
+    return with_height_colours(std::move(shape));
+  }
+  progress(0.85, fmt::format("texture of {} x {} px, {} charts", layout.width, layout.height,
+                             layout.charts.size()));
+  Image baked;
+  try {
+    baked = bake_atlas(
+        layout, [&](std::uint32_t view) { return read_colour(pictures.frames, view); }, threads);
+  } catch (const BadInput& error) {
+    notes.push_back(without_pictures(record, error.what()));
+    return with_height_colours(std::move(shape));
+  }
+  TexturedMesh mesh = with_texture(std::move(shape), layout, std::move(baked));
+  if (!settings.has_texture) {  // the colours of the vertices stay
+    mesh.face_uv.clear();
+    mesh.atlas = {};
+  }
+  return mesh;
+}
+
 }  // namespace
+
+PoissonSurface& poisson_module() {
+  static void* const function = function_in_module(
+      {GNBV_POISSON_MODULE, GNBV_POISSON_MODULE_AS_BUILT, "PCL, Debian package libpcl-dev"},
+      "gnbv_poisson_surface");
+  return *reinterpret_cast<PoissonSurface*>(function);
+}
 
 int depth_for(const Box3& points_m, double cell_m) {
   const double extent_m = kPoissonScale * points_m.sizes().maxCoeff();
@@ -72,55 +134,6 @@ TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSe
                     name, cloud.points_world_m.size(), scrap_m2));
   }
   return shape;
-}
-
-std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
-                                         std::vector<std::string>& notes) {
-  if (!has_frames(record.folder)) {
-    notes.push_back(
-        without_pictures(record, fmt::format("{}: has no frames", record.folder.string())));
-    return std::nullopt;
-  }
-  try {
-    FrameRecord frames = read_frames(record.folder);
-    std::vector<TextureView> views = texture_views(frames, record.scenario.cameras, threads);
-    return RunPictures{std::move(frames), std::move(views)};
-  } catch (const BadInput& error) {
-    notes.push_back(without_pictures(record, error.what()));
-    return std::nullopt;
-  }
-}
-
-TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictures& pictures,
-                     const SurfaceSettings& settings, int threads, const SurfaceProgress& progress,
-                     std::vector<std::string>& notes) {
-  const std::vector<TextureView>& views = pictures.views;
-  const double texels_per_m = kTexelsPerLeaf / record.scenario.planner.cloud.leaf_m;
-  progress(0.65, fmt::format("choosing among {} pictures for {} faces", views.size(),
-                             shape.faces.size()));
-  const RayScene scene(World{.structure = shape, .has_ground = false});
-  const std::vector<std::int32_t> chosen =
-      choose_views(shape, scene, views, {.texels_per_m = texels_per_m}, threads);
-  const AtlasLayout layout = lay_out_atlas(
-      shape, chosen, views, {.texels_per_m = texels_per_m, .max_side_px = settings.texture_px});
-  if (layout.charts.empty()) {
-    notes.push_back(fmt::format("{}: no picture shows the surface; colours show the height",
-                                (record.folder / kFramesFolder).string()));
-    return with_height_colours(std::move(shape));
-  }
-  progress(0.85, fmt::format("texture of {} x {} px, {} charts", layout.width, layout.height,
-                             layout.charts.size()));
-  Image baked;
-  try {
-    baked = bake_atlas(
-        layout, [&](std::uint32_t view) { return read_colour(pictures.frames, view); }, threads);
-  } catch (const BadInput& error) {
-    notes.push_back(without_pictures(record, error.what()));
-    return with_height_colours(std::move(shape));
-  }
-  TexturedMesh mesh = with_texture(std::move(shape), layout, std::move(baked));
-  if (!settings.has_texture) drop_texture(mesh);
-  return mesh;
 }
 
 TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings& settings,

@@ -1,7 +1,8 @@
-// From a run to a surface: cloud, normals, screened Poisson, trim, texture. It sees what the run
-// measured and believed, never the true mesh.
+// From a run to a surface: cloud, normals, screened Poisson, trim, texture. The reconstruction sees
+// what the run measured and believed, never the true mesh; what is made of it is scored.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "tools/run/run_record.hpp"
 #include "tools/surface/oriented_cloud.hpp"
+#include "tools/surface/surface_score.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
 namespace gnbv {
@@ -35,27 +37,24 @@ int depth_for(const Box3& points_m, double cell_m);
 TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSettings& settings,
                       const std::string& name, int threads, const SurfaceProgress& progress);
 
-/// The frames of a run, and each as a view of the surface.
-struct RunPictures {
-  FrameRecord frames;
-  std::vector<TextureView> views;
-};
-
-/// Nothing when the run has no frames, or one is damaged, which `notes` then says with the command
-/// that helps. Depth images are read, pictures not yet.
-std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
-                                         std::vector<std::string>& notes);
-
-/// The shape with the run's pictures on it; with colours by height when none shows any of it or a
-/// picture is damaged, which `notes` then says. Deterministic at any number of threads.
-TexturedMesh dressed(TriangleMesh shape, const RunRecord& record, const RunPictures& pictures,
-                     const SurfaceSettings& settings, int threads, const SurfaceProgress& progress,
-                     std::vector<std::string>& notes);
-
 /// All of it, from the files of the run. Throws BadInput as read_run_cloud() does; without frames,
-/// or with damaged ones, colours show the height.
+/// with damaged ones, or where none shows any of it, colours show the height, which `notes` then
+/// says with the command that helps. Deterministic at any number of threads.
 TexturedMesh reconstruct_surface(const RunRecord& record, const SurfaceSettings& settings,
                                  int threads, const SurfaceProgress& progress,
                                  std::vector<std::string>& notes);
+
+struct MadeSurface {
+  std::vector<std::filesystem::path> files;
+  std::optional<SurfaceScore> score;  // none where the true structure cannot be loaded
+  std::vector<std::string> notes;
+};
+
+/// Reconstructs, scores and writes into the folder, which is made if need be. Throws BadInput as
+/// reconstruct_surface(), for a folder that cannot be written to before any work, and without a
+/// score when that is needed.
+MadeSurface make_surface(const RunRecord& record, const SurfaceSettings& settings,
+                         const std::filesystem::path& folder, bool needs_score, int threads,
+                         const SurfaceProgress& progress);
 
 }  // namespace gnbv

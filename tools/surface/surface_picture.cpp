@@ -24,12 +24,10 @@ Rgb linear_of(const Vec3f& srgb_levels) {
   return colour;
 }
 
-PictureOptions options_of(const std::string& title, int width_px, int height_px,
-                          const ViewAngles& angles) {
+PictureOptions options_of(const std::string& title) {
   PictureOptions options;
-  options.width_px = width_px;
-  options.height_px = height_px;
-  options.angles = angles;
+  options.width_px = 1280;
+  options.height_px = 720;
   options.title = title;
   return options;
 }
@@ -113,9 +111,8 @@ SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m) {
   return item;
 }
 
-Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
-                      int height_px, const ViewAngles& angles) {
-  const PictureOptions options = options_of(title, width_px, height_px, angles);
+Image surface_picture(const TexturedMesh& mesh, const std::string& title) {
+  const PictureOptions options = options_of(title);
   const PanelLayout layout = layout_of(mesh.shape, 0, options);
   constexpr double kPiece_px = 2.0;
   const std::string faces = counted(mesh.shape.faces.size(), "face");
@@ -124,8 +121,7 @@ Image surface_picture(const TexturedMesh& mesh, const std::string& title, int wi
 }
 
 Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
-                    const std::string& title, int width_px, int height_px,
-                    const ViewAngles& angles) {
+                    const std::string& title) {
   GNBV_CHECK(errors_m.size() == mesh.vertices_m.size(), "{} distances for {} vertices",
              errors_m.size(), mesh.vertices_m.size());
   SurfaceItem item{.mesh = mesh};
@@ -133,7 +129,7 @@ Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
   for (const double error_m : errors_m) {
     item.vertex_colours.push_back(ramp(error_colours(), error_m / scale.most_m));
   }
-  const PictureOptions options = options_of(title, width_px, height_px, angles);
+  const PictureOptions options = options_of(title);
   Picture picture{.detail = fmt::format("distance of the reconstructed surface to the true "
                                         "structure: half of its corners within {:.2g} mm, 95 % "
                                         "within {:.2g} mm; gaps have none",

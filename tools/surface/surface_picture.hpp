@@ -16,14 +16,11 @@ SurfaceItem textured_item(const TexturedMesh& mesh, double piece_m);
 
 /// The surface as its pictures show it on a ground with a metre grid, framed and titled. Throws
 /// BadInput as Renderer does.
-Image surface_picture(const TexturedMesh& mesh, const std::string& title, int width_px,
-                      int height_px, const ViewAngles& angles = {});
+Image surface_picture(const TexturedMesh& mesh, const std::string& title);
 
 /// The same coloured by the distance to the truth, from nothing to the end of error_scale() and
-/// beyond. One
-/// distance a vertex.
+/// beyond. One distance a vertex.
 Image error_picture(const TriangleMesh& mesh, std::span<const double> errors_m,
-                    const std::string& title, int width_px, int height_px,
-                    const ViewAngles& angles = {});
+                    const std::string& title);
 
 }  // namespace gnbv

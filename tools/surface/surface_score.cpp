@@ -61,22 +61,13 @@ SurfaceScore score_surface(const TriangleMesh& surface, const World& truth,
            !config.region_m.contains(p_m.cast<double>());
   });
   const SurfaceReference reference = cached_surface_reference(truth, true_scene, config, threads);
-  const CloudDistances precise = cloud_distances(true_scene, samples_m, {}, threads);
   // a point's distance to a surface is exact, so that the reference takes the part of the cloud
   const RayScene found_scene(World{.structure = surface, .has_ground = false});
-  const CloudDistances recalled =
-      cloud_distances(found_scene, reference.samples_world_m, {}, threads);
-
-  SurfaceScore score{.samples = samples_m.size(), .floor_z_m = config.floor_z_m};
-  for (std::size_t i = 0; i < score.distances.at.size(); ++i) {
-    const double p = precise.at[i].precision;
-    const double r = recalled.at[i].precision;
-    score.distances.at[i] = {kScoreDistances_m[i], p, r, p + r > 0.0 ? 2.0 * p * r / (p + r) : 0.0};
-  }
-  score.distances.accuracy_m = precise.accuracy_m;
-  score.distances.completeness_m = recalled.accuracy_m;
-  score.distances.chamfer_m = 0.5 * (precise.accuracy_m + recalled.accuracy_m);
-  return score;
+  return {.distances =
+              cloud_distances(shares_to_structure(true_scene, samples_m, threads),
+                              shares_to_structure(found_scene, reference.samples_world_m, threads)),
+          .samples = samples_m.size(),
+          .floor_z_m = config.floor_z_m};
 }
 
 std::string score_text(const SurfaceScore& score, const std::string& name, std::size_t width) {

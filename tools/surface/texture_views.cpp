@@ -2,11 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/core/error.hpp"
+#include "bench/limits/cover_counts.hpp"
 #include "sim/core/parallel.hpp"
-#include "tools/surface/mesh_edges.hpp"
-#include "tools/surface/set_cover.hpp"
-#include "tools/surface/view_candidates.hpp"
 
 namespace gnbv {
 namespace {
@@ -19,18 +16,19 @@ std::vector<std::int32_t> cover(const Candidates& candidates, std::size_t view_c
   for (std::uint32_t face = 0; face < candidates.size(); ++face) {
     for (const ViewCandidate& c : candidates[face]) faces_of[c.view].push_back(face);
   }
-  std::vector<const std::vector<std::uint32_t>*> sets;
-  for (const auto& faces : faces_of) sets.push_back(&faces);
-  LazyGreedy greedy(sets, candidates.size());
-  const std::vector<double> costs(view_count, 1.0);
+  const CoverSets sets(faces_of, candidates.size());
+  CoverCounts counts(sets, {});
   std::vector<std::int32_t> chosen(candidates.size(), kNoView);
-  while (const std::optional<std::size_t> view = greedy.best(costs)) {
-    greedy.take(faces_of[*view]);
-    for (const std::uint32_t face : faces_of[*view]) {
-      if (chosen[face] == kNoView) chosen[face] = static_cast<std::int32_t>(*view);
+  while (true) {
+    const std::span<const std::uint32_t> gains = counts.gains();
+    const auto most = std::max_element(gains.begin(), gains.end());
+    if (most == gains.end() || *most == 0) return chosen;
+    const auto view = static_cast<std::uint32_t>(most - gains.begin());
+    for (const std::uint32_t face : faces_of[view]) {
+      if (chosen[face] == kNoView) chosen[face] = static_cast<std::int32_t>(view);
     }
+    counts.add(view);
   }
-  return chosen;
 }
 
 /// Faces alone among those of another view join them, where that view shows them as well.
@@ -86,6 +84,32 @@ std::vector<std::int32_t> choose_views(const TriangleMesh& mesh, const RayScene&
   std::vector<std::int32_t> chosen = cover(candidates, views.size());
   join_islands(mesh, candidates, chosen);
   return chosen;
+}
+
+std::vector<std::array<std::uint32_t, 3>> neighbours_across_edges(const TriangleMesh& mesh) {
+  struct Edge {
+    std::uint64_t ends;  // the lower vertex first
+    std::uint32_t face, corner;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.faces.size());
+  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax({mesh.faces[face][k], mesh.faces[face][(k + 1) % 3]});
+      edges.push_back({(std::uint64_t{a} << 32) | b, face, k});
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+  std::vector<std::array<std::uint32_t, 3>> neighbours(mesh.faces.size(),
+                                                       {kNoNeighbour, kNoNeighbour, kNoNeighbour});
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end].ends == edges[begin].ends) ++end;
+    if (end - begin != 2) continue;
+    neighbours[edges[begin].face][edges[begin].corner] = edges[begin + 1].face;
+    neighbours[edges[begin + 1].face][edges[begin + 1].corner] = edges[begin].face;
+  }
+  return neighbours;
 }
 
 }  // namespace gnbv

@@ -1,6 +1,7 @@
 // Which picture shows which face of a surface best.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -35,6 +36,7 @@ std::vector<TextureView> texture_views(const FrameRecord& record,
                                        std::span<const CameraConfig> cameras, int threads);
 
 constexpr std::int32_t kNoView = -1;
+constexpr std::uint32_t kNoNeighbour = 0xffffffffU;
 
 struct ViewChoiceSettings {
   double texels_per_m = 100.0;  // finer pictures are no better
@@ -58,5 +60,21 @@ struct ViewChoiceSettings {
 std::vector<std::int32_t> choose_views(const TriangleMesh& mesh, const RayScene& scene,
                                        std::span<const TextureView> views,
                                        const ViewChoiceSettings& settings, int threads);
+
+struct ViewCandidate {
+  std::uint32_t view = 0;
+  float quality = 0.0F;
+};
+
+/// The views that show each face, at least 0.6 as good as its best one, best first.
+std::vector<std::vector<ViewCandidate>> view_candidates(const TriangleMesh& mesh,
+                                                        const RayScene& scene,
+                                                        std::span<const TextureView> views,
+                                                        const ViewChoiceSettings& settings,
+                                                        int threads);
+
+/// For each face the one across its edge from corner k to corner k + 1; kNoNeighbour at a rim and
+/// where more than two faces meet.
+std::vector<std::array<std::uint32_t, 3>> neighbours_across_edges(const TriangleMesh& mesh);
 
 }  // namespace gnbv

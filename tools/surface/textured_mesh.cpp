@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <unordered_map>
+#include <tuple>
 
 #include "sim/core/error.hpp"
 #include "tools/scene/colour.hpp"
@@ -157,27 +156,8 @@ std::vector<Vec3f> vertex_normals(const TriangleMesh& mesh) {
 }
 
 DistinctCorners distinct_corners(const TexturedMesh& mesh) {
-  struct CornerKey {
-    std::uint32_t vertex;
-    std::uint32_t u;
-    std::uint32_t v;
-    bool operator==(const CornerKey&) const = default;
-  };
-  struct Hash {
-    std::size_t operator()(const CornerKey& key) const {
-      std::uint64_t h = key.vertex * 0x9e3779b97f4a7c15ULL;
-      h = (h ^ key.u) * 0xbf58476d1ce4e5b9ULL;
-      return (h ^ key.v ^ (h >> 32)) * 0x94d049bb133111ebULL;
-    }
-  };
-  const auto bits = [](float value) {
-    std::uint32_t out = 0;
-    std::memcpy(&out, &value, sizeof out);
-    return out;
-  };
   DistinctCorners corners;
-  std::unordered_map<CornerKey, std::uint32_t, Hash> index_of;
-  index_of.reserve(mesh.shape.faces.size());
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> index_of;
   const bool has_uv = !mesh.face_uv.empty();
   for (std::size_t face = 0; face < mesh.shape.faces.size(); ++face) {
     auto& out = corners.faces.emplace_back();
@@ -185,8 +165,7 @@ DistinctCorners distinct_corners(const TexturedMesh& mesh) {
       const std::uint32_t vertex = mesh.shape.faces[face][k];
       const Vec2f uv = has_uv ? mesh.face_uv[face][k] : Vec2f(Vec2f::Zero());
       const auto next = static_cast<std::uint32_t>(corners.vertex.size());
-      const auto [entry, is_new] =
-          index_of.try_emplace(CornerKey{vertex, bits(uv.x()), bits(uv.y())}, next);
+      const auto [entry, is_new] = index_of.try_emplace({vertex, uv.x(), uv.y()}, next);
       if (is_new) {
         corners.vertex.push_back(vertex);
         if (has_uv) corners.uv.push_back(uv);

@@ -1,5 +1,7 @@
 #include "tools/surface/trim.hpp"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 
 #include "bench/score/point_tree.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/parallel.hpp"
 #include "sim/mesh/mesh_lint.hpp"
 
 namespace gnbv {
@@ -47,16 +48,13 @@ std::vector<float> distances_in_reaches(const TriangleMesh& mesh, const Oriented
   constexpr std::size_t kAround = 6;
   const PointTree tree(cloud.points_world_m);
   std::vector<float> field(mesh.vertices_m.size(), std::numeric_limits<float>::max());
-  parallel_for_chunks(
-      threads, field.size(), kPointsAtOnce, [&](std::size_t begin, std::size_t end) {
-        std::array<Neighbour, kAround> around{};
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vec3f& p_m = mesh.vertices_m[i];
-          for (const Neighbour& found : tree.nearest(p_m, around)) {
-            field[i] = std::min(field[i], distance_in_reaches(p_m, cloud, found.point, settings));
-          }
-        }
-      });
+  for_each_point(threads, field.size(), [&](std::size_t i) {
+    const Vec3f& p_m = mesh.vertices_m[i];
+    std::array<Neighbour, kAround> around{};
+    for (const Neighbour& found : tree.nearest(p_m, around)) {
+      field[i] = std::min(field[i], distance_in_reaches(p_m, cloud, found.point, settings));
+    }
+  });
   return field;
 }
 
@@ -179,6 +177,22 @@ TriangleMesh trimmed(const TriangleMesh& closed, const OrientedCloud& cloud,
   std::vector<float> field = distances_in_reaches(closed, cloud, settings, threads);
   for (int i = 0; i < kSmoothings; ++i) smooth(closed, field);
   return without_scraps(cut_at_level(closed, field, 1.0F), 0.0);
+}
+
+TriangleMesh decimated(const TriangleMesh& mesh, double tolerance_m) {
+  if (mesh.faces.empty() || !(tolerance_m > 0.0)) return mesh;
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const float* const positions_m = mesh.vertices_m.front().data();
+  const std::size_t vertices = mesh.vertices_m.size();
+  const float extent_m = meshopt_simplifyScale(positions_m, vertices, sizeof(Vec3f));
+  TriangleMesh fewer;
+  fewer.vertices_m = mesh.vertices_m;
+  fewer.faces.resize(mesh.faces.size());
+  const std::size_t indices = meshopt_simplify(
+      fewer.faces.front().data(), mesh.faces.front().data(), 3 * mesh.faces.size(), positions_m,
+      vertices, sizeof(Vec3f), 0, static_cast<float>(tolerance_m) / extent_m, 0, nullptr);
+  fewer.faces.resize(indices / 3);
+  return without_scraps(fewer, 0.0);
 }
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// What of a closed surface the points bear out.
+// What of a closed surface the points bear out, in fewer faces.
 #pragma once
 
 #include <span>
@@ -27,5 +27,10 @@ TriangleMesh cut_at_level(const TriangleMesh& mesh, std::span<const float> field
 /// Without faces that have no area, parts (joined by vertices) of less than `part_min_m2`, and
 /// vertices that no face uses. The order of faces and vertices stays.
 TriangleMesh without_scraps(const TriangleMesh& mesh, double part_min_m2);
+
+/// Edges collapsed by quadric error (Garland and Heckbert 1997) while the surface stays within
+/// about `tolerance_m` of what it was: flat parts become few faces, edges stay. Vertices are some
+/// of those given; none is left that no face uses. Deterministic.
+TriangleMesh decimated(const TriangleMesh& mesh, double tolerance_m);
 
 }  // namespace gnbv

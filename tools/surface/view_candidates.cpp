@@ -1,5 +1,4 @@
-#include "tools/surface/view_candidates.hpp"
-
+// view_candidates() of texture_views.hpp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <optional>
 
 #include "sim/core/parallel.hpp"
+#include "tools/surface/texture_views.hpp"
 
 namespace gnbv {
 namespace {
