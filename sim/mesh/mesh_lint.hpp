@@ -1,4 +1,4 @@
-// What is wrong with a mesh, in figures. What needs rays is in tools/mesh_lint/outside_view.hpp.
+// What is wrong with a mesh, in figures. What needs rays is in tools/mesh_lint/mesh_report.hpp.
 #pragma once
 
 #include <cstddef>

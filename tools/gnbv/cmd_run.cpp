@@ -14,7 +14,7 @@
 #include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/live/live_child.hpp"
-#include "tools/mesh_lint/mesh_warnings.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/page/page_parts.hpp"

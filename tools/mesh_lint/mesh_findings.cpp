@@ -1,5 +1,4 @@
-#include "tools/mesh_lint/mesh_findings.hpp"
-
+// findings_of() of mesh_report.hpp.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -6,20 +6,9 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
-#include "tools/mesh_lint/mesh_findings.hpp"
-#include "tools/mesh_lint/mesh_places.hpp"
 
 namespace gnbv {
 namespace {
-
-/// Of the sound faces, in their order.
-std::vector<bool> twins_of(const MeshLint& lint) {
-  std::vector<bool> twins;
-  for (std::size_t i = 0; i < lint.is_sound.size(); ++i) {
-    if (lint.is_sound[i]) twins.push_back(lint.is_two_sided[i]);
-  }
-  return twins;
-}
 
 std::string verdict(const MeshReport& report) {
   const auto count = [&](Severity severity) {
@@ -34,6 +23,25 @@ std::string verdict(const MeshReport& report) {
 }
 
 std::array<double, 3> array_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Of one mesh, whose keys are those below `section`.
+void add_warnings(const Scenario& scenario, const MeshFileConfig& file, const std::string& section,
+                  int threads, std::vector<std::string>& lines) {
+  constexpr std::string_view kAlone = "structure.file.";
+  Scenario alone = scenario;
+  alone.structure.file = file;
+  alone.structure.files.clear();
+  const MeshReport report = report_on_mesh(alone, false, threads);
+  for (const Finding& finding : report.findings) {
+    if (finding.severity < Severity::warning || finding.check == "file") continue;
+    std::string fix = finding.fix.empty() ? "" : "; fix: " + finding.fix;
+    for (std::size_t at = fix.find(kAlone); at != std::string::npos;
+         at = fix.find(kAlone, at + section.size())) {
+      fix.replace(at, kAlone.size(), section);
+    }
+    lines.push_back(fmt::format("{}: {}: {}{}", report.path, finding.check, finding.what, fix));
+  }
+}
 
 }  // namespace
 
@@ -57,8 +65,7 @@ MeshReport report_on_mesh(const Scenario& scenario, bool bounds_auto, int thread
     return report;
   }
   report.lint = lint_mesh(report.reading.mesh);
-  report.outside = view_from_outside(sound_part(report.reading.mesh, report.lint),
-                                     twins_of(report.lint), threads);
+  report.outside = view_from_outside(report.reading.mesh, report.lint, threads);
   const bool can_fly = report.lint.sound.count > 0 && report.lint.not_finite_vertices == 0;
   if (can_fly) report.advice = advise(report, scenario, bounds_auto);
   report.findings = findings_of(report, scenario, bounds_auto);
@@ -110,6 +117,19 @@ std::string json_text(const MeshReport& report) {
   out["advice"] = {{"set", report.advice.sets()},
                    {"bounds", report.advice.needs_bounds ? "auto" : "scenario"}};
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::vector<std::string> mesh_warnings(const Scenario& scenario, int threads) {
+  const StructureConfig& structure = scenario.structure;
+  std::vector<std::string> lines;
+  if (!structure.file.path.empty()) {
+    add_warnings(scenario, structure.file, "structure.file.", threads, lines);
+  }
+  for (std::size_t i = 0; i < structure.files.size(); ++i) {
+    add_warnings(scenario, structure.files[i], fmt::format("structure.files.{}.", i), threads,
+                 lines);
+  }
+  return lines;
 }
 
 }  // namespace gnbv

@@ -9,7 +9,6 @@
 #include "sim/mesh/mesh_file.hpp"
 #include "sim/mesh/mesh_lint.hpp"
 #include "tools/mesh_lint/advice.hpp"
-#include "tools/mesh_lint/outside_view.hpp"
 
 namespace gnbv {
 
@@ -25,6 +24,13 @@ struct Finding {
   std::string fix;  // flags of `gnbv run`, or what to do in Blender or MeshLab; empty: nothing
 };
 
+/// How much of a structure can be seen from outside, and which side of its faces.
+struct OutsideView {
+  double area_m2 = 0.0;
+  double hidden_area_m2 = 0.0;  // no straight line leaves the structure from there
+  FaceTally from_behind;        // seen from outside, but only their backs; two-sided faces aside
+};
+
 struct MeshReport {
   std::string path;
   MeshReading reading;  // empty when the file could not be read
@@ -36,6 +42,15 @@ struct MeshReport {
   bool is_usable() const;  // no finding is an error
 };
 
+/// By samples of the surface and rays from them, by the rule of bench/score/surface_reference.hpp:
+/// about one sample per 20,000th of the area, at least one a face. Of the sound faces;
+/// deterministic at any number of threads.
+OutsideView view_from_outside(const TriangleMesh& mesh, const MeshLint& lint, int threads);
+
+/// What the figures mean for a mission of this scenario; `report.findings` is not looked at.
+std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scenario,
+                                 bool bounds_auto);
+
 /// Reads the file of the scenario's structure, placed as the scenario says, and looks at all there
 /// is to look at. A file that cannot be read is a finding. With `bounds_auto` the workspace is laid
 /// around the structure instead of the scenario's. Throws BadInput only for a config that
@@ -46,5 +61,9 @@ MeshReport report_on_mesh(const Scenario& scenario, bool bounds_auto, int thread
 std::string terminal_text(const MeshReport& report);
 /// The same for programs.
 std::string json_text(const MeshReport& report);
+
+/// What lint warns of in each mesh file of the structure, a line each, with the keys of this
+/// scenario that put it right.
+std::vector<std::string> mesh_warnings(const Scenario& scenario, int threads);
 
 }  // namespace gnbv

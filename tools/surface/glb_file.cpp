@@ -9,6 +9,8 @@
 namespace gnbv {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // values of the specification
 constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
@@ -22,87 +24,75 @@ constexpr std::uint32_t kBinChunk = 0x004E4942;   // BIN
 Vec3f y_up(const Vec3f& z_up) { return {z_up.x(), z_up.z(), -z_up.y()}; }
 
 /// The binary chunk and the tables that say what lies where in it.
-class Buffer {
- public:
-  /// Values that `append` puts at the end of the bytes; the index of their accessor.
+struct Buffer {
+  std::string bytes;
+  Json views = Json::array();
+  Json accessors = Json::array();
+
+  /// Values that `append(i)` puts at the end of the bytes; the index of their accessor.
   template <typename Append>
-  int add(std::size_t count, const char* type, int component, int target, const Append& append) {
-    const std::size_t begin = bytes_.size();
-    for (std::size_t i = 0; i < count; ++i) append(i, bytes_);
-    views_.push_back({{"buffer", 0},
-                      {"byteOffset", begin},
-                      {"byteLength", bytes_.size() - begin},
-                      {"target", target}});
-    accessors_.push_back({{"bufferView", views_.size() - 1},
-                          {"componentType", component},
-                          {"count", count},
-                          {"type", type}});
-    return static_cast<int>(accessors_.size()) - 1;
+  std::size_t add(std::size_t count, const char* type, int component, int target,
+                  const Append& append) {
+    const std::size_t begin = bytes.size();
+    for (std::size_t i = 0; i < count; ++i) append(i);
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", begin},
+                     {"byteLength", bytes.size() - begin},
+                     {"target", target}});
+    accessors.push_back({{"bufferView", views.size() - 1},
+                         {"componentType", component},
+                         {"count", count},
+                         {"type", type}});
+    return accessors.size() - 1;
   }
   /// The index of its view.
-  int add_image(std::string_view png) {
-    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", png.size()}});
-    bytes_ += png;
-    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
-    return static_cast<int>(views_.size()) - 1;
+  std::size_t add_image(std::string_view png) {
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", png.size()}});
+    bytes += png;
+    bytes.resize((bytes.size() + 3) / 4 * 4, '\0');
+    return views.size() - 1;
   }
-  nlohmann::ordered_json& accessor(int index) {
-    return accessors_[static_cast<std::size_t>(index)];
-  }
-  const std::string& bytes() const { return bytes_; }
-  const nlohmann::ordered_json& views() const { return views_; }
-  const nlohmann::ordered_json& accessors() const { return accessors_; }
-
- private:
-  std::string bytes_;
-  nlohmann::ordered_json views_ = nlohmann::ordered_json::array();
-  nlohmann::ordered_json accessors_ = nlohmann::ordered_json::array();
 };
 
 /// Positions, normals, texture coordinates or colours, and indices; the primitive that uses them.
-nlohmann::ordered_json add_triangles(const TexturedMesh& mesh, Buffer& buffer) {
+Json add_triangles(const TexturedMesh& mesh, Buffer& buffer) {
   const DistinctCorners corners = distinct_corners(mesh);
   const std::vector<Vec3f> normals = vertex_normals(mesh.shape);
-  const std::size_t count = corners.vertex.size();
+  const auto add = [&](const char* type, int component, const auto& append) {
+    return buffer.add(corners.vertex.size(), type, component, kVertexBuffer, append);
+  };
+  const auto append = [&](const auto& numbers) {
+    for (const auto x : numbers) append_bytes(buffer.bytes, x);
+  };
   Eigen::AlignedBox3f box;
   for (const std::uint32_t vertex : corners.vertex) box.extend(y_up(mesh.shape.vertices_m[vertex]));
-  const auto append_vec3 = [](const Vec3f& v, std::string& out) {
-    for (const float x : v) append_bytes(out, x);
-  };
-  nlohmann::ordered_json attributes;
-  const int position =
-      buffer.add(count, "VEC3", kFloat, kVertexBuffer, [&](std::size_t i, auto& out) {
-        append_vec3(y_up(mesh.shape.vertices_m[corners.vertex[i]]), out);
-      });
-  buffer.accessor(position)["min"] = {box.min().x(), box.min().y(), box.min().z()};
-  buffer.accessor(position)["max"] = {box.max().x(), box.max().y(), box.max().z()};
-  attributes["POSITION"] = position;
-  attributes["NORMAL"] = buffer.add(
-      count, "VEC3", kFloat, kVertexBuffer,
-      [&](std::size_t i, auto& out) { append_vec3(y_up(normals[corners.vertex[i]]), out); });
+  Json attributes;
+  attributes["POSITION"] = add("VEC3", kFloat, [&](std::size_t i) {
+    append(y_up(mesh.shape.vertices_m[corners.vertex[i]]));
+  });
+  buffer.accessors.back()["min"] = {box.min().x(), box.min().y(), box.min().z()};
+  buffer.accessors.back()["max"] = {box.max().x(), box.max().y(), box.max().z()};
+  attributes["NORMAL"] =
+      add("VEC3", kFloat, [&](std::size_t i) { append(y_up(normals[corners.vertex[i]])); });
   if (corners.uv.empty()) {
-    attributes["COLOR_0"] =
-        buffer.add(count, "VEC4", kUnsignedShort, kVertexBuffer, [&](std::size_t i, auto& out) {
-          // linear in glTF, where 8 bits would be too few for the darks
-          for (const std::uint8_t level : mesh.vertex_rgb[corners.vertex[i]]) {
-            const float linear = srgb_to_linear(static_cast<float>(level) / 255.0F);
-            append_bytes(out, static_cast<std::uint16_t>(std::lround(65535.0F * linear)));
-          }
-          append_bytes(out, std::uint16_t{65535});
-        });
-    buffer.accessor(attributes["COLOR_0"])["normalized"] = true;
+    attributes["COLOR_0"] = add("VEC4", kUnsignedShort, [&](std::size_t i) {
+      // linear in glTF, where 8 bits would be too few for the darks
+      for (const std::uint8_t level : mesh.vertex_rgb[corners.vertex[i]]) {
+        const float linear = srgb_to_linear(static_cast<float>(level) / 255.0F);
+        append_bytes(buffer.bytes, static_cast<std::uint16_t>(std::lround(65535.0F * linear)));
+      }
+      append_bytes(buffer.bytes, std::uint16_t{65535});
+    });
+    buffer.accessors.back()["normalized"] = true;
   } else {
     const Vec2f size(static_cast<float>(mesh.atlas.width_px),
                      static_cast<float>(mesh.atlas.height_px));
-    attributes["TEXCOORD_0"] =
-        buffer.add(count, "VEC2", kFloat, kVertexBuffer, [&](std::size_t i, auto& out) {
-          append_bytes(out, corners.uv[i].x() / size.x());
-          append_bytes(out, corners.uv[i].y() / size.y());
-        });
+    attributes["TEXCOORD_0"] = add(
+        "VEC2", kFloat, [&](std::size_t i) { append(Vec2f(corners.uv[i].cwiseQuotient(size))); });
   }
-  const int indices =
+  const std::size_t indices =
       buffer.add(3 * corners.faces.size(), "SCALAR", kUnsignedInt, kIndexBuffer,
-                 [&](std::size_t i, auto& out) { append_bytes(out, corners.faces[i / 3][i % 3]); });
+                 [&](std::size_t i) { append_bytes(buffer.bytes, corners.faces[i / 3][i % 3]); });
   return {{"attributes", attributes}, {"indices", indices}, {"material", 0}};
 }
 
@@ -118,14 +108,13 @@ void append_chunk(std::string& out, std::uint32_t type, std::string_view content
 
 std::string glb_of(const TexturedMesh& mesh, std::string_view png) {
   Buffer buffer;
-  const nlohmann::ordered_json primitive = add_triangles(mesh, buffer);
-  nlohmann::ordered_json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
+  const Json primitive = add_triangles(mesh, buffer);
+  Json surface = {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
   // unlit: the pictures' light is in the colours already
-  nlohmann::ordered_json material = {
-      {"name", "surface"},
-      {"doubleSided", true},
-      {"extensions", {{"KHR_materials_unlit", nlohmann::ordered_json::object()}}}};
-  nlohmann::ordered_json json = {
+  Json material = {{"name", "surface"},
+                   {"doubleSided", true},
+                   {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+  Json json = {
       {"asset", {{"version", "2.0"}, {"generator", "gnbv"}}},
       {"extensionsUsed", {"KHR_materials_unlit"}},
       {"scene", 0},
@@ -143,13 +132,13 @@ std::string glb_of(const TexturedMesh& mesh, std::string_view png) {
   }
   material["pbrMetallicRoughness"] = surface;
   json["materials"] = {material};
-  json["accessors"] = buffer.accessors();
-  json["bufferViews"] = buffer.views();
-  json["buffers"] = {{{"byteLength", buffer.bytes().size()}}};
+  json["accessors"] = buffer.accessors;
+  json["bufferViews"] = buffer.views;
+  json["buffers"] = {{{"byteLength", buffer.bytes.size()}}};
 
   std::string chunks;
   append_chunk(chunks, kJsonChunk, json.dump(), ' ');
-  append_chunk(chunks, kBinChunk, buffer.bytes(), '\0');
+  append_chunk(chunks, kBinChunk, buffer.bytes, '\0');
   std::string glb;
   append_bytes(glb, kMagic);
   append_bytes(glb, std::uint32_t{2});

@@ -11,7 +11,7 @@
 #include "tests/assets/structure_laws.hpp"
 #include "tests/support/random_structures.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mesh_lint/mesh_findings.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
 #include "tools/mission/auto_bounds.hpp"
 
 namespace gnbv {
