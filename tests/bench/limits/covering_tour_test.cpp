@@ -20,7 +20,7 @@ double random(std::uint64_t seed, std::uint64_t frame, std::uint64_t index) {
 class RandomTask {
  public:
   RandomTask(std::uint64_t seed, std::size_t views, std::size_t items)
-      : finds_(made_finds(seed, views, items)), sets_(pointers(finds_), items) {
+      : finds_(made_finds(seed, views, items)), sets_(finds_, items) {
     const std::size_t places = (views + 1) / 2 + 1;
     std::vector<Vec3> p_m;
     for (std::size_t p = 0; p < places; ++p) {
@@ -68,12 +68,6 @@ class RandomTask {
     }
     return finds;
   }
-  static std::vector<const std::vector<std::uint32_t>*> pointers(const Finds& finds) {
-    std::vector<const std::vector<std::uint32_t>*> out;
-    for (const auto& set : finds) out.push_back(&set);
-    return out;
-  }
-
   Finds finds_;
   CoverSets sets_;
   std::vector<std::vector<float>> rows_m_;

@@ -9,6 +9,7 @@
 #include "bench/limits/ceiling.hpp"
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/lattice_ways.hpp"
+#include "bench/limits/view_survey.hpp"
 #include "planner/motion/paths.hpp"
 #include "scenarios/load.hpp"
 #include "tools/mission/load_world.hpp"
@@ -140,7 +141,7 @@ TEST(Oracle, NeedsMoreForMoreAndNeverAsManyMetresAsTheGreedyTour) {
   EXPECT_EQ(reaches.back().views, route(OracleAim::metres).size());
 }
 
-TEST(LatticeWays, RowsAreTheDistancesOfPairsAndNearlyTheLengthsOfWays) {
+TEST(LatticeWays, RowsAreNoShorterThanTheWays) {
   const Smoke& s = smoke();
   LatticeWays ways(s.scene, s.legal, s.scenario.planner.validity.collision_radius_m);
   std::vector<std::size_t> places = {ways.start()};
@@ -152,12 +153,7 @@ TEST(LatticeWays, RowsAreTheDistancesOfPairsAndNearlyTheLengthsOfWays) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double straight_m = (ways.p_world_m(places[i]) - ways.p_world_m(from)).norm();
       const double way_m = ways.way(from, places[i]).length_m;
-      ASSERT_FLOAT_EQ(row_m[i],
-                      static_cast<float>(straight_m <= 12.0 ? ways.distance_m(from, places[i])
-                                                            : ways.guess_m(from, places[i])));
-      if (straight_m <= 12.0) {
-        EXPECT_GE(static_cast<double>(row_m[i]), way_m - 1e-5);
-      }
+      EXPECT_GE(static_cast<double>(row_m[i]), (straight_m <= 12.0 ? way_m : straight_m) - 1e-5);
       bent += way_m > straight_m + 1e-9 ? 1 : 0;
     }
   }
@@ -198,7 +194,7 @@ TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
 
 TEST(CeilingCache, GivesBackWhatWasPutIn) {
   const std::string bytes = bytes_of(survey());
-  const auto read = survey_from(bytes);
+  const auto read = survey_in(bytes);
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(bytes_of(*read), bytes);
   ASSERT_EQ(read->views.size(), survey().views.size());
@@ -207,19 +203,8 @@ TEST(CeilingCache, GivesBackWhatWasPutIn) {
     EXPECT_EQ(read->views[i].yaw_rad, survey().views[i].yaw_rad);
     EXPECT_EQ(read->views[i].finds, survey().views[i].finds);
   }
-  EXPECT_FALSE(survey_from(bytes.substr(0, bytes.size() - 1)));
-  EXPECT_FALSE(survey_from(bytes + "x"));
-
-  Ceiling ceiling{.raw = {0.1, 1.0 / 3.0, 1.0},
-                  .outside = {0.7, 0.8, 0.9},
-                  .leaf_raw = {0.2, 0.3, 0.4},
-                  .leaf_outside = {0.5, 0.6, 0.7},
-                  .positions = 12};
-  const auto again = ceiling_from(text_of(ceiling));
-  ASSERT_TRUE(again.has_value());
-  EXPECT_EQ(again->raw, ceiling.raw);
-  EXPECT_EQ(again->leaf_outside, ceiling.leaf_outside);
-  EXPECT_FALSE(ceiling_from("12 0.5"));
+  EXPECT_FALSE(survey_in(bytes.substr(0, bytes.size() - 1)));
+  EXPECT_FALSE(survey_in(bytes + "x"));
 }
 
 TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {

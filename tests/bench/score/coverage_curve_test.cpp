@@ -60,18 +60,14 @@ TEST(CoverageMeter, EqualsTheSetsOfTheCloudAsItGrows) {
   }
 }
 
-TEST(CoverageOfPrefixes, OfAnEmptyReferenceIsZero) {
+TEST(CoverageOfPrefixes, OfAnEmptyReferenceIsZeroAndPrefixesGrowWithinTheCloud) {
   const std::vector<Vec3f> cloud = random_points(10);
-  const std::vector<std::size_t> prefixes = {10};
-  EXPECT_EQ(coverage_of_prefixes({}, cloud, prefixes, 1)[0].raw, (std::array<double, 3>{}));
-}
-
-TEST(CoverageOfPrefixes, RefusesPrefixesThatShrinkOrEndBeyondTheCloud) {
-  const std::vector<Vec3f> cloud = random_points(10);
-  const std::vector<std::size_t> shrinking = {5, 4};
-  const std::vector<std::size_t> beyond = {11};
-  EXPECT_THROW(coverage_of_prefixes({}, cloud, shrinking, 1), BrokenInvariant);
-  EXPECT_THROW(coverage_of_prefixes({}, cloud, beyond, 1), BrokenInvariant);
+  const auto shares_of = [&](const std::vector<std::size_t>& prefixes) {
+    return coverage_of_prefixes({}, cloud, prefixes, 1);
+  };
+  EXPECT_EQ(shares_of({10})[0].raw, (std::array<double, 3>{}));
+  EXPECT_THROW(shares_of({5, 4}), BrokenInvariant);
+  EXPECT_THROW(shares_of({11}), BrokenInvariant);
 }
 
 TEST(ReferencePoints, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
@@ -89,10 +85,7 @@ TEST(ReferencePoints, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
 TEST(ReferenceSamples, StandForEqualAreasOfWhatSeesOut) {
   // the part of the outer box above the floor: a lid of 4 m2, walls of 2 m x 2 m and a bottom; any
   // tenth of a wall's height has a tenth of the wall's samples, whatever its triangles are
-  World world;
-  test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
-  test::add_box(world.structure, Vec3(-0.6, -0.6, 0.9), Vec3(1.2, 1.2, 1.2));
-  const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
+  const SurfaceReference reference = box_in_a_box();
   const auto all = static_cast<double>(reference.samples_world_m.size());
   EXPECT_NEAR(all, kAreaSamples, 0.25 * kAreaSamples);
   for (int tenth = 0; tenth < 10; ++tenth) {
@@ -158,37 +151,6 @@ TEST(EffortToReach, IsThatOfTheFirstEntryThatCoversSoMuch) {
   }
 }
 
-TEST(EffortToReach, MoreCostsNoLess) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const CoverageCurve curve = random_curve(seed);
-    std::optional<EffortSpent> last = EffortSpent{};
-    for (int step = 0; step <= 40; ++step) {
-      const auto spent = effort_to_reach(curve, kBefore, 0.03 * step);
-      EXPECT_TRUE(last || !spent) << "reached more, but not less, seed " << seed;
-      if (last && spent) {
-        EXPECT_GE(spent->views, last->views);
-        EXPECT_GE(spent->metres, last->metres);
-        EXPECT_GE(spent->metres_with_profile, last->metres_with_profile);
-        EXPECT_GE(spent->seconds_with_profile, last->seconds_with_profile);
-      }
-      last = spent;
-    }
-  }
-}
-
-TEST(EffortToReach, AMissionThatEndsBeforeNeverDoes) {
-  const CoverageCurve whole{.coverage = {{0.2, 1, 1}, {0.5, 1, 1}, {0.9, 1, 1}},
-                            .metres = {0, 10, 20},
-                            .seconds = {0, 5, 9}};
-  CoverageCurve dead = whole;
-  dead.coverage.pop_back();
-  dead.metres.pop_back();
-  dead.seconds.pop_back();
-  EXPECT_EQ(effort_to_reach(whole, kBefore, 0.9)->metres, 20.0);
-  EXPECT_FALSE(effort_to_reach(dead, kBefore, 0.9));
-  EXPECT_EQ(effort_to_reach(dead, kBefore, 0.5)->metres, 10.0);
-}
-
 TEST(EffortToReach, NeedsACurve) {
   EXPECT_THROW(effort_to_reach({}, kBefore, 0.5), BrokenInvariant);
   CoverageCurve uneven = random_curve(8);
@@ -223,21 +185,14 @@ TEST(AreaUnderCoverage, OfALineIsItsMiddle) {
   }
 }
 
-TEST(AreaUnderCoverage, AStepWithoutEffortHasNoArea) {
-  CoverageCurve curve;
-  curve.coverage = {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}};
-  curve.metres = {0.0, 0.0, 10.0};
-  curve.seconds = {0.0, 1.0, 2.0};
-  EXPECT_NEAR(area_under_coverage(curve, Effort::metres, 0, 10.0), 0.75, 1e-12);
-}
-
-TEST(AreaUnderCoverage, OfTheProfileAloneIsItsCoverage) {
-  CoverageCurve curve;
-  curve.coverage = {{0.1, 0.2, 0.3}};
-  curve.metres = {0.0};
-  curve.seconds = {0.0};
-  EXPECT_EQ(curve.views(), 0U);
-  EXPECT_NEAR(area_under_coverage(curve, Effort::seconds, 1, 7.0), 0.2, 1e-12);
+TEST(AreaUnderCoverage, AStepWithoutEffortHasNoneAndTheProfileAloneItsCoverage) {
+  const CoverageCurve step{.coverage = {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}},
+                           .metres = {0.0, 0.0, 10.0},
+                           .seconds = {0.0, 1.0, 2.0}};
+  EXPECT_NEAR(area_under_coverage(step, Effort::metres, 0, 10.0), 0.75, 1e-12);
+  const CoverageCurve profile{.coverage = {{0.1, 0.2, 0.3}}, .metres = {0.0}, .seconds = {0.0}};
+  EXPECT_EQ(profile.views(), 0U);
+  EXPECT_NEAR(area_under_coverage(profile, Effort::seconds, 1, 7.0), 0.2, 1e-12);
 }
 
 TEST(AreaUnderCoverage, NeedsACurveABudgetAndEffortThatGrows) {

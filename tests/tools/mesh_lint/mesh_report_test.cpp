@@ -19,7 +19,7 @@ using test::add_box;
 using test::add_sheet;
 
 OutsideView view_of(const TriangleMesh& mesh, int threads = 2) {
-  return view_from_outside(mesh, lint_mesh(mesh).is_two_sided, threads);
+  return view_from_outside(mesh, lint_mesh(mesh), threads);
 }
 
 void turn_faces(TriangleMesh& mesh, std::size_t first, std::size_t last) {

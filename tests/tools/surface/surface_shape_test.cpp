@@ -8,11 +8,10 @@
 #include "bench/score/escape_search.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/surface/decimate.hpp"
-#include "tools/surface/mesh_edges.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_score.hpp"
@@ -91,7 +90,7 @@ TEST(OrientedCloud, PointsOnALineHaveNoNormal) {
 TEST(Poisson, SurfaceOfASphereIsTheSphereWatertightAndOutward) {
   const TriangleMesh mesh = poisson(oriented(seen_sphere(), 2), 6);
   ASSERT_GT(mesh.faces.size(), 1000U);
-  EXPECT_EQ(open_edges(mesh), 0U);
+  EXPECT_EQ(lint_mesh(mesh).open_edges, 0U);
   double volume_m3 = 0.0;
   for (const auto& f : mesh.faces) {
     const auto p = [&](std::size_t k) { return mesh.vertices_m[f[k]].cast<double>(); };
@@ -106,7 +105,7 @@ TEST(Trim, AHalfSphereEndsAtItsRim) {
   const TriangleMesh closed = poisson(cloud, 6);
   const TriangleMesh open = trimmed(closed, cloud, {}, 2);
   EXPECT_GT(surface_area_m2(closed), 2.5 * kPi);  // Poisson spans the opening
-  EXPECT_GT(open_edges(open), 100U);              // the rim is 6.3 m of cells of 4 cm
+  EXPECT_GT(lint_mesh(open).open_edges, 100U);    // the rim is 6.3 m of cells of 4 cm
   double lowest_m = 1.0;
   std::size_t near = 0;
   for (const Vec3f& p_m : open.vertices_m) {
