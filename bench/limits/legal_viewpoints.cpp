@@ -70,54 +70,6 @@ class Lattice {
   std::array<std::int32_t, 3> size_{};
 };
 
-struct Search {
-  const RayScene& scene;
-  const Lattice& lattice;
-  const NoFly& no_fly;
-  double radius_m;
-  int threads;
-  const HeedStop& stop;
-
-  template <typename Task>
-  void for_each_node(const Task& task) const {
-    constexpr std::size_t kChunk = 256;
-    parallel_for_chunks(threads, lattice.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      heed(stop);
-      for (std::size_t node = begin; node < end; ++node) task(node);
-    });
-  }
-
-  std::vector<double> clearances_m(double limit_m) const {
-    std::vector<double> clear_m(lattice.size());
-    for_each_node([&](std::size_t node) {
-      const Vec3 p_m = lattice.p_world_m(node);
-      clear_m[node] = no_fly.allows(p_m) ? scene.clearance_m(p_m, limit_m) : 0.0;
-    });
-    return clear_m;
-  }
-
-  std::vector<std::vector<std::size_t>> legs(const std::vector<double>& clear_m) const {
-    std::vector<std::vector<std::size_t>> legs(lattice.size());
-    for_each_node([&](std::size_t node) {
-      if (clear_m[node] < radius_m) return;
-      const Vec3 p_m = lattice.p_world_m(node);
-      lattice.for_each_neighbour(node, [&](std::size_t other) {
-        if (clear_m[other] < radius_m) return;
-        // from the lower end, so that both directions get one answer
-        const Vec3 q_m = lattice.p_world_m(other);
-        const double length_m = (q_m - p_m).norm();
-        if (!(node < other ? no_fly.allows_leg(p_m, q_m) : no_fly.allows_leg(q_m, p_m))) return;
-        const bool is_far_off = clear_m[node] + clear_m[other] >= 2.0 * radius_m + length_m;
-        if (is_far_off || (node < other ? is_leg_clear(scene, p_m, q_m, radius_m)
-                                        : is_leg_clear(scene, q_m, p_m, radius_m))) {
-          legs[node].push_back(other);
-        }
-      });
-    });
-    return legs;
-  }
-};
-
 }  // namespace
 
 bool is_leg_clear(const RayScene& scene, const Vec3& a_world_m, const Vec3& b_world_m,
@@ -144,9 +96,33 @@ LegalViewpoints find_legal_viewpoints(const RayScene& scene, const Box3& navigat
                                       int threads, const NoFly& no_fly, const HeedStop& stop) {
   GNBV_CHECK(step_m > 0.0, "a lattice step of {} m", step_m);
   const Lattice lattice(navigation_m, step_m);
-  const Search search{scene, lattice, no_fly, radius_m, threads, stop};
-  const std::vector<double> clear_m = search.clearances_m(radius_m + std::sqrt(3.0) * step_m);
-  const std::vector<std::vector<std::size_t>> legs = search.legs(clear_m);
+  const auto for_each_node = [&](const auto& task) {
+    constexpr std::size_t kChunk = 256;
+    parallel_for_chunks(threads, lattice.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      heed(stop);
+      for (std::size_t node = begin; node < end; ++node) task(node);
+    });
+  };
+  std::vector<double> clear_m(lattice.size());
+  const double far_m = radius_m + std::sqrt(3.0) * step_m;
+  for_each_node([&](std::size_t node) {
+    const Vec3 p_m = lattice.p_world_m(node);
+    clear_m[node] = no_fly.allows(p_m) ? scene.clearance_m(p_m, far_m) : 0.0;
+  });
+  std::vector<std::vector<std::size_t>> legs(lattice.size());
+  for_each_node([&](std::size_t node) {
+    if (clear_m[node] < radius_m) return;
+    lattice.for_each_neighbour(node, [&](std::size_t other) {
+      if (clear_m[other] < radius_m) return;
+      // from the lower end, so that both directions get one answer
+      const Vec3 p_m = lattice.p_world_m(std::min(node, other));
+      const Vec3 q_m = lattice.p_world_m(std::max(node, other));
+      if (!no_fly.allows_leg(p_m, q_m)) return;
+      const double length_m = (q_m - p_m).norm();
+      const bool is_far_off = clear_m[node] + clear_m[other] >= 2.0 * radius_m + length_m;
+      if (is_far_off || is_leg_clear(scene, p_m, q_m, radius_m)) legs[node].push_back(other);
+    });
+  });
 
   std::vector<std::size_t> open;  // from here on: connected to the start
   std::vector<std::uint32_t> index(lattice.size(), kNone);

@@ -40,34 +40,26 @@ SightSearch::SightSearch(const RayScene& scene, std::span<const CameraModel> cam
   }
 }
 
-std::size_t SightSearch::node(const std::array<std::int32_t, 3>& cell, std::int32_t border) const {
-  const auto at = [&](std::size_t a) { return static_cast<std::size_t>(cell[a]); };
-  const auto length = [&](std::size_t a) { return static_cast<std::size_t>(cells_[a] + border); };
-  return (at(2) * length(1) + at(1)) * length(0) + at(0);
+std::size_t SightSearch::node(const Cell& cell) const {
+  std::size_t node = 0;
+  for (const std::size_t a : {2U, 1U, 0U}) {
+    node = node * static_cast<std::size_t>(nodes_[a] + 2) + static_cast<std::size_t>(cell[a] + 1);
+  }
+  return node;
 }
 
 void SightSearch::map_lattice() {
-  for (const auto& cell : legal_.cell) {
-    for (std::size_t a = 0; a < 3; ++a) cells_[a] = std::max(cells_[a], cell[a] + 1);
+  for (const Cell& cell : legal_.cell) {
+    for (std::size_t a = 0; a < 3; ++a) nodes_[a] = std::max(nodes_[a], cell[a] + 1);
   }
-  const auto volume = [&](std::int32_t border) {
-    std::size_t product = 1;
-    for (const std::int32_t n : cells_) product *= static_cast<std::size_t>(n + border);
-    return product;
-  };
-  position_at_.assign(volume(0), kNoPosition);
+  position_at_.assign(node(nodes_) + 1, kNoPosition);
+  is_near_.assign(position_at_.size(), 0);
   for (std::size_t i = 0; i < legal_.size(); ++i) {
-    const auto& c = legal_.cell[i];
-    position_at_[node(c, 0)] = static_cast<std::uint32_t>(i);
+    const Cell& c = legal_.cell[i];
+    position_at_[node(c)] = static_cast<std::uint32_t>(i);
     corner_m_ = legal_.p_world_m[i] - legal_.step_m * Vec3(c[0], c[1], c[2]);
-  }
-  is_near_.assign(volume(1), 0);
-  for (std::int32_t z = -1; z < cells_[2]; ++z) {
-    for (std::int32_t y = -1; y < cells_[1]; ++y) {
-      for (std::int32_t x = -1; x < cells_[0]; ++x) {
-        const bool is_near = any_corner({x, y, z}, [](const Vec3&) { return true; });
-        is_near_[node({x + 1, y + 1, z + 1}, 1)] = is_near ? 1 : 0;
-      }
+    for (int corner = 0; corner < 8; ++corner) {
+      is_near_[node({c[0] - (corner & 1), c[1] - ((corner >> 1) & 1), c[2] - (corner >> 2)})] = 1;
     }
   }
 }
@@ -165,17 +157,21 @@ bool SightSearch::is_seen_along(const Vec3f& point_m, const Vec3f& direction, do
   const Vec3 from_m = point_m.cast<double>();
   const Vec3 along = direction.cast<double>();
   const double step_m = 0.5 * legal_.step_m;
-  // the lattice's cells passed by, in cells
-  const Vec3 first = (from_m - corner_m_) / legal_.step_m;
+  const Vec3 from = (from_m - corner_m_) / legal_.step_m;  // in cells
   // no place within the radius of the point is legal
   const double first_m = step_m * std::max(1.0, std::ceil(radius_m_ / step_m));
   for (double at_m = first_m; at_m < free_m; at_m += step_m) {
-    if (!is_lattice_near(first + at_m / legal_.step_m * along)) continue;
+    const Vec3 at = (from + at_m / legal_.step_m * along).array().floor();
+    const Vec3 last = Vec3(nodes_[0], nodes_[1], nodes_[2]).array() - 1.0;
+    if (!Box3(Vec3::Constant(-1.0), last).contains(at)) continue;
+    const Cell low = {static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()),
+                      static_cast<std::int32_t>(at.z())};
+    if (is_near_[node(low)] == 0) continue;
     const Vec3 vehicle_m = from_m + at_m * along;
     if (!navigation_m_.contains(vehicle_m)) continue;
     for (const FreeYawCamera& camera : cameras_) {
       const auto origin_m = camera.origin_world_m(vehicle_m, from_m);
-      if (!origin_m || !is_legal(vehicle_m)) continue;
+      if (!origin_m || !is_legal(vehicle_m, low)) continue;
       const std::array<Vec3f, 1> origin = {origin_m->cast<float>()};
       const std::array<Vec3f, 1> to = {(from_m - *origin_m).cast<float>()};
       std::array<std::uint8_t, 1> blocked{};
@@ -186,44 +182,22 @@ bool SightSearch::is_seen_along(const Vec3f& point_m, const Vec3f& direction, do
   return false;
 }
 
-std::array<std::int32_t, 3> SightSearch::cell_below(const Vec3& p_world_m) const {
-  const Vec3 cells = (p_world_m - corner_m_) / legal_.step_m;
-  return {static_cast<std::int32_t>(std::floor(cells.x())),
-          static_cast<std::int32_t>(std::floor(cells.y())),
-          static_cast<std::int32_t>(std::floor(cells.z()))};
-}
-
 /// Calls use(position) for the legal ones at the corners of the lattice's cell above `low`, until
 /// one is true.
 template <typename Use>
-bool SightSearch::any_corner(const std::array<std::int32_t, 3>& low, const Use& use) const {
+bool SightSearch::any_corner(const Cell& low, const Use& use) const {
   for (int corner = 0; corner < 8; ++corner) {
-    const std::array<std::int32_t, 3> c = {low[0] + (corner & 1), low[1] + ((corner >> 1) & 1),
-                                           low[2] + (corner >> 2)};
-    if (c[0] < 0 || c[1] < 0 || c[2] < 0 || c[0] >= cells_[0] || c[1] >= cells_[1] ||
-        c[2] >= cells_[2]) {
-      continue;
-    }
-    const std::uint32_t position = position_at_[node(c, 0)];
+    const std::uint32_t position = position_at_[node(
+        {low[0] + (corner & 1), low[1] + ((corner >> 1) & 1), low[2] + (corner >> 2)})];
     if (position != kNoPosition && use(legal_.p_world_m[position])) return true;
   }
   return false;
 }
 
-bool SightSearch::is_lattice_near(const Vec3& at_cells) const {
-  std::array<std::int32_t, 3> above{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double cell = at_cells[static_cast<Eigen::Index>(a)] + 1.0;  // the map begins one before
-    if (!(cell >= 0.0 && cell < cells_[a] + 1.0)) return false;
-    above[a] = static_cast<std::int32_t>(cell);
-  }
-  return is_near_[node(above, 1)] != 0;
-}
-
-bool SightSearch::is_legal(const Vec3& vehicle_m) const {
+bool SightSearch::is_legal(const Vec3& vehicle_m, const Cell& low) const {
   const NoFly& no_fly = legal_.no_fly;
   return no_fly.allows(vehicle_m) && scene_.clearance_m(vehicle_m, radius_m_) >= radius_m_ &&
-         any_corner(cell_below(vehicle_m), [&](const Vec3& position_m) {
+         any_corner(low, [&](const Vec3& position_m) {
            return no_fly.allows_leg(vehicle_m, position_m) &&
                   is_leg_clear(scene_, vehicle_m, position_m, radius_m_);
          });

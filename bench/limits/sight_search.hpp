@@ -59,13 +59,12 @@ class SightSearch {
   void look(const Vec3& position_m, std::size_t first_point, std::size_t points,
             std::span<SightItem> items) const;
   bool is_seen_along(const Vec3f& point_m, const Vec3f& direction, double free_m) const;
-  bool is_legal(const Vec3& vehicle_m) const;
-  /// Of a place in cells from the lattice's corner: whether a legal position is at its cell.
-  bool is_lattice_near(const Vec3& at_cells) const;
+  using Cell = std::array<std::int32_t, 3>;
+  /// Whether one may be there, in the lattice's cell above `low`.
+  bool is_legal(const Vec3& vehicle_m, const Cell& low) const;
   template <typename Use>
-  bool any_corner(const std::array<std::int32_t, 3>& low, const Use& use) const;
-  std::array<std::int32_t, 3> cell_below(const Vec3& p_world_m) const;
-  std::size_t node(const std::array<std::int32_t, 3>& cell, std::int32_t border) const;
+  bool any_corner(const Cell& low, const Use& use) const;
+  std::size_t node(const Cell& cell) const;
   void map_lattice();
 
   const RayScene& scene_;
@@ -74,13 +73,13 @@ class SightSearch {
   double radius_m_;
   std::vector<FreeYawCamera> cameras_;
   double reach_m_ = 0.0;
-  Vec3 corner_m_ = Vec3::Zero();            // of the lattice
-  std::array<std::int32_t, 3> cells_{};     // of the lattice
-  std::vector<std::uint32_t> position_at_;  // legal position of each node, or none
-  // of each of its cells, from one before the first node on: whether a corner is legal
-  std::vector<std::uint8_t> is_near_;
-  std::vector<Vec3> shuffled_m_;       // the legal positions
-  std::vector<RayPacket> directions_;  // unit vectors spread over the sphere
+  Vec3 corner_m_ = Vec3::Zero();  // of the lattice
+  Cell nodes_{};                  // along each axis
+  // of each node, and of those that would be one before the first and after the last
+  std::vector<std::uint32_t> position_at_;  // legal position, or none
+  std::vector<std::uint8_t> is_near_;       // whether a corner of the cell above it is legal
+  std::vector<Vec3> shuffled_m_;            // the legal positions
+  std::vector<RayPacket> directions_;       // unit vectors spread over the sphere
 };
 
 }  // namespace gnbv

@@ -4,6 +4,7 @@
 #include "sim/core/error.hpp"
 
 namespace gnbv {
+
 double probability(const OccupancyGrid& grid, VoxelIndex v) {
   return octomap::probability(static_cast<double>(grid.log_odds(v)));
 }
@@ -16,8 +17,6 @@ struct OctomapTwin::Tree {
 
 OctomapTwin::OctomapTwin(std::unique_ptr<Tree> tree) : tree_(std::move(tree)) {}
 OctomapTwin::~OctomapTwin() = default;
-OctomapTwin::OctomapTwin(OctomapTwin&&) noexcept = default;
-OctomapTwin& OctomapTwin::operator=(OctomapTwin&&) noexcept = default;
 
 OctomapTwin::OctomapTwin(const OccupancyConfig& config)
     : tree_(std::make_unique<Tree>(config.resolution_m)) {
@@ -78,8 +77,6 @@ OctomapScan::OctomapScan(const Vec3f& origin_world_m, std::span<const Vec3f> end
   for (const Vec3f& end_m : ends_world_m) cloud_->ends.push_back(octomap_point(end_m));
 }
 OctomapScan::~OctomapScan() = default;
-OctomapScan::OctomapScan(OctomapScan&&) noexcept = default;
-OctomapScan& OctomapScan::operator=(OctomapScan&&) noexcept = default;
 
 void OctomapTwin::insert_point_cloud(const OctomapScan& scan, bool lazy, bool discretize) {
   constexpr double kNoMaximumRange = -1.0;

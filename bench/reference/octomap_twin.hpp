@@ -20,8 +20,6 @@ class OctomapScan {
  public:
   OctomapScan(const Vec3f& origin_world_m, std::span<const Vec3f> ends_world_m);
   ~OctomapScan();
-  OctomapScan(OctomapScan&&) noexcept;
-  OctomapScan& operator=(OctomapScan&&) noexcept;
 
  private:
   friend class OctomapTwin;
@@ -33,8 +31,6 @@ class OctomapTwin {
  public:
   explicit OctomapTwin(const OccupancyConfig& config);
   ~OctomapTwin();
-  OctomapTwin(OctomapTwin&&) noexcept;
-  OctomapTwin& operator=(OctomapTwin&&) noexcept;
 
   /// A tree from a .ot or .bt file. Throws BadInput naming the path when OctoMap cannot read it.
   static OctomapTwin read(const std::filesystem::path& path);

@@ -1,5 +1,3 @@
-#include "bench/speed/cloud_speed.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,7 @@
 #include "assets/catalog.hpp"
 #include "bench/reference/kd_density_twin.hpp"
 #include "bench/reference/pcl_twin.hpp"
-#include "bench/speed/measure.hpp"
+#include "bench/speed/speed_rows.hpp"
 #include "planner/map/surface_cloud.hpp"
 #include "sensors/capture.hpp"
 

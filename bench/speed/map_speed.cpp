@@ -1,12 +1,10 @@
-#include "bench/speed/map_speed.hpp"
-
 #include <bit>
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
-#include "bench/speed/measure.hpp"
+#include "bench/speed/speed_rows.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/simd.hpp"
 

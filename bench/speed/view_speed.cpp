@@ -1,13 +1,10 @@
-#include "bench/speed/view_speed.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/depth_rays.hpp"
-#include "bench/reference/keyset_view_twin.hpp"
-#include "bench/reference/paper_view_twin.hpp"
-#include "bench/speed/measure.hpp"
+#include "bench/reference/view_twins.hpp"
+#include "bench/speed/speed_rows.hpp"
 #include "planner/guided/utility.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/view/visibility.hpp"

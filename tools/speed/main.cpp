@@ -10,9 +10,7 @@
 #include <numeric>
 #include <thread>
 
-#include "bench/speed/cloud_speed.hpp"
-#include "bench/speed/map_speed.hpp"
-#include "bench/speed/view_speed.hpp"
+#include "bench/speed/speed_rows.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/simd.hpp"
 #include "sim/core/stopwatch.hpp"

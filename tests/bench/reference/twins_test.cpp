@@ -6,10 +6,9 @@
 
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/kd_density_twin.hpp"
-#include "bench/reference/keyset_view_twin.hpp"
 #include "bench/reference/octomap_twin.hpp"
-#include "bench/speed/map_speed.hpp"
-#include "bench/speed/measure.hpp"
+#include "bench/reference/view_twins.hpp"
+#include "bench/speed/speed_rows.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"
 

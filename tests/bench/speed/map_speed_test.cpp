@@ -1,6 +1,6 @@
-#include "bench/speed/map_speed.hpp"
-
 #include <gtest/gtest.h>
+
+#include "bench/speed/speed_rows.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "bench/reference/octomap_twin.hpp"
-#include "bench/reference/paper_view_twin.hpp"
+#include "bench/reference/view_twins.hpp"
 #include "tests/planner/view/view_scene.hpp"
 #include "tests/support/at_simd_level.hpp"
 
