@@ -29,25 +29,20 @@ double extent_m(std::span<const Vec3f> cloud_m) {
   return size_m.norm();
 }
 
-struct Unit {
-  const char* name;
-  double per_m;
-};
-
 /// What may be wrong with a cloud that is nowhere near the mesh.
 std::string guess(double cloud_m, double structure_m) {
   // a third of the structure seen, or noise of three times its size, would still be told apart
   constexpr double kSlack = 3.0;
-  for (const Unit& unit : {Unit{"millimetres", 1000.0}, Unit{"centimetres", 100.0}}) {
-    const auto is_near = [&](double ratio) {
-      return ratio > unit.per_m / kSlack && ratio < unit.per_m * kSlack;
+  for (const auto& [name, per_m] : {std::pair("millimetres", 1000.0), {"centimetres", 100.0}}) {
+    const auto is_near = [per_m = per_m](double ratio) {
+      return ratio > per_m / kSlack && ratio < per_m * kSlack;
     };
     if (is_near(cloud_m / structure_m)) {
-      return fmt::format("it looks like {}: scale the cloud by {}", unit.name, 1.0 / unit.per_m);
+      return fmt::format("it looks like {}: scale the cloud by {}", name, 1.0 / per_m);
     }
     if (is_near(structure_m / cloud_m)) {
-      return fmt::format("the mesh looks like {}: add --set structure.file.scale={}", unit.name,
-                         1.0 / unit.per_m);
+      return fmt::format("the mesh looks like {}: add --set structure.file.scale={}", name,
+                         1.0 / per_m);
     }
   }
   return "another frame, axis order or mesh?";

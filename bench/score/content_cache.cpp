@@ -39,12 +39,6 @@ fs::path path_of(const fs::path& folder, std::string_view kind, std::string_view
   return folder / kind / key;
 }
 
-/// A name of its own for every writer: two may store the same result at the same time.
-fs::path part_of(const fs::path& path) {
-  static std::atomic<unsigned> count{0};
-  return path.string() + fmt::format(".{}-{}.part", getpid(), count++);
-}
-
 constexpr std::chrono::hours kStaleAfter{1};
 
 struct CacheFile {
@@ -64,17 +58,25 @@ bool begins_as_ours(const fs::path& path) {
   return is_part(path) ? kCacheFirstWords.starts_with(words) : words == kCacheFirstWords;
 }
 
-/// What others remove meanwhile is left out.
+/// What is in the folder; what others remove meanwhile is left out.
+std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
+  std::vector<fs::directory_entry> entries;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    entries.push_back(*at);
+  }
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
 std::vector<CacheFile> files_in(const fs::path& kind) {
   std::vector<CacheFile> files;
-  std::error_code error;
-  for (fs::directory_iterator at(kind, error), end; !error && at != end; at.increment(error)) {
+  for (const fs::directory_entry& entry : entries_of(kind)) {
     std::error_code gone;
-    if (!fs::is_regular_file(at->symlink_status(gone)) || gone) continue;
-    if (!begins_as_ours(at->path())) continue;
-    CacheFile file = {.used = at->last_write_time(gone), .path = at->path()};
+    if (!fs::is_regular_file(entry.symlink_status(gone)) || !begins_as_ours(entry.path())) continue;
+    CacheFile file = {.used = entry.last_write_time(gone), .path = entry.path()};
     if (gone) continue;
-    file.bytes = at->file_size(gone);
+    file.bytes = entry.file_size(gone);
     if (!gone) files.push_back(std::move(file));
   }
   return files;
@@ -82,12 +84,10 @@ std::vector<CacheFile> files_in(const fs::path& kind) {
 
 std::vector<fs::path> kinds_in(const fs::path& folder) {
   std::vector<fs::path> kinds;
-  std::error_code error;
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+  for (const fs::directory_entry& entry : entries_of(folder)) {
     std::error_code gone;
-    if (fs::is_directory(at->symlink_status(gone)) && !gone) kinds.push_back(at->path());
+    if (fs::is_directory(entry.symlink_status(gone))) kinds.push_back(entry.path());
   }
-  std::sort(kinds.begin(), kinds.end());
   return kinds;
 }
 
@@ -151,7 +151,9 @@ void store_cached(std::string_view kind, std::string_view key, std::string_view 
   if (folder.empty() || bytes > limit_bytes) return;
   prune_cache(folder, limit_bytes - bytes);
   const fs::path path = path_of(folder, kind, key);
-  const fs::path part = part_of(path);
+  // a name of its own for every writer: two may store the same result at the same time
+  static std::atomic<unsigned> count{0};
+  const fs::path part = path.string() + fmt::format(".{}-{}.part", getpid(), count++);
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error) return;

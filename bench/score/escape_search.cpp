@@ -28,13 +28,6 @@ std::vector<Vec3f> tilted_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-void check(const ReferenceConfig& config) {
-  GNBV_CHECK(config.sample_spacing_m > 0.0, "sample spacing {} m", config.sample_spacing_m);
-  GNBV_CHECK(config.directions >= 1, "{} directions", config.directions);
-  GNBV_CHECK(config.escape_near_m >= 0.0, "escape distance {} m", config.escape_near_m);
-  GNBV_CHECK(config.obstacle_reach_m > 0.0, "reach of obstacles {} m", config.obstacle_reach_m);
-}
-
 }  // namespace
 
 EscapeSearch::EscapeSearch(const TriangleMesh& mesh, const RayScene& scene,
@@ -44,7 +37,11 @@ EscapeSearch::EscapeSearch(const TriangleMesh& mesh, const RayScene& scene,
       obstacle_reach_m_(static_cast<float>(config.obstacle_reach_m)),
       normals_(tilted_normals(mesh)),
       directions_(spread_directions(config.directions)) {
-  check(config);
+  GNBV_CHECK(config.sample_spacing_m > 0.0 && config.directions >= 1 &&
+                 config.escape_near_m >= 0.0 && config.obstacle_reach_m > 0.0,
+             "spacing {} m, {} directions, escape distance {} m, reach of obstacles {} m",
+             config.sample_spacing_m, config.directions, config.escape_near_m,
+             config.obstacle_reach_m);
 }
 
 /// Of the samples those under the terrain.

@@ -75,8 +75,6 @@ PointTree::PointTree(std::span<const Vec3f> points_m) {
   impl_ = std::make_unique<Impl>(points_m);
 }
 PointTree::~PointTree() = default;
-PointTree::PointTree(PointTree&&) noexcept = default;
-PointTree& PointTree::operator=(PointTree&&) noexcept = default;
 
 std::span<const Neighbour> PointTree::nearest(const Vec3f& p_m, std::span<Neighbour> found,
                                               float below_m) const {

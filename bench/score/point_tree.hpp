@@ -22,8 +22,7 @@ class PointTree {
   /// Keeps the span, not the points.
   explicit PointTree(std::span<const Vec3f> points_m);
   ~PointTree();
-  PointTree(PointTree&&) noexcept;
-  PointTree& operator=(PointTree&&) noexcept;
+  PointTree(const PointTree&) = delete;
 
   /// Fills `found` with the nearest points, nearest first and the lower index first among equals;
   /// returns the part of it that is filled, which is less than asked for only when fewer points lie

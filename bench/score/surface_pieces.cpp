@@ -27,8 +27,13 @@ class Polygon {
     p_[size_++] = p;
   }
 
-  double min(Eigen::Index axis) const { return extreme(axis, std::less<>{}); }
-  double max(Eigen::Index axis) const { return extreme(axis, std::greater<>{}); }
+  /// Lowest and highest coordinate.
+  std::pair<double, double> span(Eigen::Index axis) const {
+    const auto [low, high] =
+        std::minmax_element(p_.begin(), p_.begin() + static_cast<std::ptrdiff_t>(size_),
+                            [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+    return {(*low)[axis], (*high)[axis]};
+  }
 
   /// The part with sign * (p[axis] - at) >= 0.
   Polygon cut(Eigen::Index axis, double at, double sign) const {
@@ -57,15 +62,6 @@ class Polygon {
   }
 
  private:
-  template <typename Less>
-  double extreme(Eigen::Index axis, const Less& less) const {
-    double best = p_[0][axis];
-    for (const Vec3& p : corners()) {
-      if (less(p[axis], best)) best = p[axis];
-    }
-    return best;
-  }
-
   std::array<Vec3, 20> p_;  // rounding may add a few
   std::size_t size_ = 0;
 };
@@ -79,8 +75,9 @@ template <typename Use>
 void for_each_cell(const Polygon& polygon, double cells_per_metre, Eigen::Index axis,
                    std::int64_t from, std::int64_t to, const Use& use) {
   if (polygon.corners().size() < 3) return;
-  const std::int64_t first = cell_of(polygon.min(axis), cells_per_metre);
-  const std::int64_t last = cell_of(polygon.max(axis), cells_per_metre);
+  const auto [low_m, high_m] = polygon.span(axis);
+  const std::int64_t first = cell_of(low_m, cells_per_metre);
+  const std::int64_t last = cell_of(high_m, cells_per_metre);
   Polygon rest = polygon;
   for (std::int64_t cell = std::max(first, from); cell <= std::min(last, to); ++cell) {
     if (cell > first && cell == from) {

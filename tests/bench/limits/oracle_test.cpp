@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <set>
 
 #include "bench/limits/ceiling.hpp"
@@ -11,29 +10,18 @@
 #include "bench/limits/lattice_ways.hpp"
 #include "bench/limits/view_survey.hpp"
 #include "planner/motion/paths.hpp"
-#include "scenarios/load.hpp"
-#include "tools/mission/load_world.hpp"
-#include "tools/mission/start_pose.hpp"
+#include "tests/bench/limits/limits_setting.hpp"
 
 namespace gnbv {
 namespace {
 
-/// The smoke scenario as the oracle sees it; nothing comes from a cache.
-struct Smoke {
-  Smoke() { setenv("GNBV_CACHE", "", 1); }
+/// The smoke scenario as the oracle sees it.
+struct Smoke : LimitsSetting {
+  Smoke() : LimitsSetting(load_scenario("smoke", {})) {}
 
-  std::vector<Decision> plan(OracleAim aim, int threads = 2) const {
-    return plan_oracle(scenario, world, scene, reference, start, aim, threads);
+  std::vector<Decision> plan(OracleAim aim) const {
+    return plan_oracle(scenario, world, scene, reference, start, aim, 2);
   }
-
-  std::vector<std::string> warnings;
-  Scenario scenario = load_scenario("smoke", {});
-  World world = load_world(scenario, warnings);
-  RayScene scene{world};
-  ViewPose start = start_pose(scenario, scene);
-  LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
-  SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
 };
 
 const Smoke& smoke() {
@@ -207,23 +195,33 @@ TEST(CeilingCache, GivesBackWhatWasPutIn) {
   EXPECT_FALSE(survey_in(bytes + "x"));
 }
 
-TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
+/// As content of a sweep and as key of the cache.
+TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
   const Smoke& s = smoke();
   std::set<std::string> keys = {ceiling_key(s.scenario, s.world, s.legal)};
-  const auto expect_new = [&](const std::vector<std::string>& overrides) {
-    const Scenario other = load_scenario("smoke", overrides);
-    const LegalViewpoints legal = find_legal_viewpoints(other, s.scene, s.start, 2);
-    EXPECT_TRUE(keys.insert(ceiling_key(other, s.world, legal)).second) << overrides.front();
+  const auto key_of = [&](const Scenario& scenario) {
+    return ceiling_key(scenario, s.world, find_legal_viewpoints(scenario, s.scene, s.start, 2));
   };
-  for (const std::string key :
+  const auto content_of = [](const Scenario& scenario) {
+    return to_yaml(what_a_ceiling_depends_on(scenario));
+  };
+  for (const std::string set :
        {"cameras.0.fov_y_deg=50", "cameras.0.range_max_m=4", "cameras.0.width_px=80",
-        "planner.floor_z_m=0.2", "planner.cloud.leaf_m=0.06", "workspace_m.max=[4,4,6]",
+        "cameras.0.pitch_deg=9", "planner.floor_z_m=0.2", "planner.cloud.leaf_m=0.06",
+        "planner.map.resolution_m=0.1", "workspace_m.max=[4,4,6]",
         "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8",
         "lidars.0.pitch_deg=5", "lidars.0.range_max_m=12", "planner.profiling.method=none",
         "planner.profiling.scan_in_transit=false", "score.region_m={max: [0, 5, 5]}",
         "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]", "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]",
         "start.position_m=[0, 2.8, 1.2]"}) {
-    expect_new({key});
+    const Scenario other = load_scenario("smoke", {set});
+    EXPECT_TRUE(keys.insert(key_of(other)).second) << set;
+    EXPECT_NE(content_of(other), content_of(s.scenario)) << set;
+  }
+  // by the mesh in the key, by the name in the content
+  for (const char* set : {"seed=2", "structure.builtin=lab_model", "structure.ground=false",
+                          "obstacles=[{box_m: {min: [2, 2, 0], max: [3, 3, 1]}}]"}) {
+    EXPECT_NE(content_of(load_scenario("smoke", {set})), content_of(s.scenario)) << set;
   }
   // as a radius that moves no position of the lattice
   Scenario nearer = s.scenario;
@@ -240,10 +238,21 @@ TEST(CeilingCache, KeyChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
     more.*around = box_mesh(Box3(Vec3(3, 3, 0), Vec3(4, 4, 1)));
     EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, more, s.legal)).second);
   }
-  const Scenario same = load_scenario(
-      "smoke", {"planner.utility.name=isler", "seed=7", "cameras.0.noise.model=released",
-                "planner.agvs.step_m=1", "vehicle.kind=ideal"});
-  EXPECT_FALSE(keys.insert(ceiling_key(same, s.world, s.legal)).second);
+  World floating = s.world;
+  floating.has_ground = false;
+  EXPECT_TRUE(keys.insert(ceiling_key(s.scenario, floating, s.legal)).second);
+  for (const std::string set :
+       {"planner.utility.name=isler", "planner.termination.max_iterations=3",
+        "planner.agvs.step_m=0.3", "planner.fvs.enabled=false", "planner.map.prob_hit=0.6",
+        "planner.validity.path=astar", "cameras.0.noise.model=released", "cameras.0.rate_hz=2",
+        "cameras.0.name=x", "cameras.0.drop_probability=0.3", "guidance.path_speed_m_s=2",
+        "vehicle.kind=ideal", "benchmark.stop_at_coverage=0.5", "wind.mean_m_s=[1, 0, 0]",
+        "score.sizes_m=[0.2]", "lidars.0.range_sigma_m=0.1"}) {
+    const Scenario other = load_scenario("smoke", {set});
+    EXPECT_FALSE(keys.insert(key_of(other)).second) << set;
+    EXPECT_EQ(content_of(other), content_of(s.scenario)) << set;
+  }
+  EXPECT_FALSE(keys.insert(key_of(load_scenario("smoke", {"seed=7"}))).second);
 }
 
 }  // namespace

@@ -1,22 +1,17 @@
-#include "bench/limits/seen_surface.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <deque>
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/limits/cloud_of_views.hpp"
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
-#include "planner/motion/config.hpp"
-#include "scenarios/load.hpp"
 #include "sim/core/rng.hpp"
+#include "tests/bench/limits/limits_setting.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"
-#include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
 namespace {
@@ -111,20 +106,6 @@ TEST(SightSearch, AGimbalSeesWhatSomePitchOfItDoes) {
   EXPECT_GT(of_one_pitch, 5);
 }
 
-TEST(SightSearch, EndsWhereImageAndRangeEnd) {
-  // depth is measured along the axis: at the image's edge, 30 degrees aside, 5 m reach 5.77 m
-  const auto sees_from = [](double x) {
-    const Sight sight(two_walls(), lattice_of(Vec3(x, 0, 2), 1.0, {1, 1, 1}), 0.0);
-    return sight.from_lattice(Vec3(2.025, 0, 2), kFew);
-  };
-  EXPECT_TRUE(sees_from(-3.6));
-  EXPECT_FALSE(sees_from(-3.8));
-  // 22.5 degrees up and down: at 1 m, 0.41 m
-  const Sight near(two_walls(), lattice_of(Vec3(1.025, 0, 2), 1.0, {1, 1, 1}), 0.0);
-  EXPECT_TRUE(near.from_lattice(Vec3(2.025, 0, 2.40), kFew));
-  EXPECT_FALSE(near.from_lattice(Vec3(2.025, 0, 2.43), kFew));
-}
-
 TEST(SightSearch, AllPositionsTogetherSeeWhatEachDoes) {
   TriangleMesh mesh = two_walls();
   test::add_box(mesh, Vec3(0.3, -2.2, 0.6), Vec3(0.7, 0.8, 1.9));
@@ -179,46 +160,6 @@ TEST(SightSearch, FromAClosedBoxNothingIsOpen) {
   }
 }
 
-/// What a ceiling is found from; nothing comes from a cache.
-struct Setting {
-  explicit Setting(const char* name) : scenario(load_scenario(name, {})) {
-    setenv("GNBV_CACHE", "", 1);
-  }
-  SeenSurface seen(int threads = 2) const {
-    return find_seen_surface(scenario, world, scene, legal, reference, threads, {});
-  }
-
-  Scenario scenario;
-  std::vector<std::string> warnings;
-  World world = load_world(scenario, warnings);
-  RayScene scene{world};
-  ViewPose start = start_pose(scenario, scene);
-  LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
-  SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
-};
-
-/// A mission of the scenario without noise, and its ceiling.
-struct NoiseFree {
-  explicit NoiseFree(const Scenario& made) : scenario(made), flown(made) {
-    setenv("GNBV_CACHE", "", 1);
-    start = start_pose(scenario, flown.scene);
-    legal = find_legal_viewpoints(scenario, flown.scene, start, 2);
-    reference = make_surface_reference(flown.world, flown.scene,
-                                       {.floor_z_m = scenario.planner.floor_z_m}, 2);
-    seen = find_seen_surface(scenario, flown.world, flown.scene, legal, reference, 2, {});
-    ceiling = find_ceiling(scenario, flown.world, flown.scene, start, 2);
-  }
-
-  Scenario scenario;
-  Flown flown;
-  ViewPose start;
-  LegalViewpoints legal;
-  SurfaceReference reference;
-  SeenSurface seen;
-  Ceiling ceiling;
-};
-
 Scenario noise_free(const std::string& name, const std::string& utility, int views) {
   Scenario scenario =
       load_scenario(name, {"planner.utility.name=" + utility, "vehicle.estimate.model=none",
@@ -242,12 +183,15 @@ TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
       scenario.cameras[0].width_px = 640;
       scenario.cameras[0].height_px = 480;
     }
-    const NoiseFree m(scenario);
-    const auto cloud = m.flown.result.belief.cloud.points_world_m();
+    const LimitsSetting m(scenario);
+    const SeenSurface seen = m.seen();
+    const Ceiling ceiling = find_ceiling(scenario, m.world, m.scene, m.start, 2);
+    const Flown flown(scenario);
+    const auto cloud = flown.result.belief.cloud.points_world_m();
     const auto covered = coverage_at_all_sizes(m.reference.outside, cloud);
     for (std::size_t size = 0; size < 3; ++size) {
-      EXPECT_LE(covered[size], m.ceiling.outside[size]) << name << " " << size;
-      EXPECT_LE(covered[size], m.ceiling.leaf_outside[size]) << name << " " << size;
+      EXPECT_LE(covered[size], ceiling.outside[size]) << name << " " << size;
+      EXPECT_LE(covered[size], ceiling.leaf_outside[size]) << name << " " << size;
     }
     // and voxel by voxel, but for the few where the leaf's centroid lies beside the surface
     const VoxelSet voxels = voxels_of(cloud, kCoverageSizes_m[0]);
@@ -256,7 +200,7 @@ TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
     for (const std::uint64_t code : m.reference.outside[0]) {
       if (!std::binary_search(voxels.begin(), voxels.end(), code)) continue;
       ++in_reference;
-      unseen += std::binary_search(m.seen.voxels.begin(), m.seen.voxels.end(), code) ? 0 : 1;
+      unseen += std::binary_search(seen.voxels.begin(), seen.voxels.end(), code) ? 0 : 1;
     }
     EXPECT_GT(in_reference, 1000U);
     EXPECT_LE(static_cast<double>(unseen), 0.005 * static_cast<double>(in_reference)) << name;
@@ -264,7 +208,7 @@ TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
 }
 
 TEST(SeenSurface, HasWhatViewsFromLegalPositionsShow) {
-  const Setting lab("lab_airplane");
+  const LimitsSetting lab(load_scenario("lab_airplane", {}));
   const auto& [scenario, warnings, world, scene, start, legal, reference] = lab;
   const SeenSurface seen = lab.seen();
   const std::vector<CameraModel> cameras = exact_cameras(scenario);
@@ -315,15 +259,12 @@ TEST(SeenSurface, AVoxelKeepsAPointOfALeafThatItHasAQuarterOf) {
 }
 
 TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
-  setenv("GNBV_CACHE", "", 1);
   for (const auto& [name, leaf_m] :
        {std::pair("smoke", 0.05), std::pair("smoke", 0.02), std::pair("lab_model", 0.02)}) {
     Scenario scenario = load_scenario(name, {});
     scenario.planner.cloud.leaf_m = leaf_m;
-    std::vector<std::string> warnings;
-    const World world = load_world(scenario, warnings);
-    const RayScene scene(world);
-    const Ceiling ceiling = find_ceiling(scenario, world, scene, start_pose(scenario, scene), 2);
+    const LimitsSetting m(scenario);
+    const Ceiling ceiling = find_ceiling(scenario, m.world, m.scene, m.start, 2);
     EXPECT_LE(ceiling.leaf_outside[0], ceiling.outside[0]) << name;
     for (const std::size_t size : {1U, 2U}) {
       EXPECT_EQ(ceiling.leaf_outside[size], ceiling.outside[size]) << name << " " << size;

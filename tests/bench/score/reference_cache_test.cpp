@@ -63,30 +63,23 @@ TEST_F(ReferenceCache, GivesBackWhatWasComputedAndIsReallyAsked) {
 }
 
 TEST_F(ReferenceCache, EveryInputHasAKeyOfItsOwn) {
-  cached(world_);
-  World moved = world_;
-  moved.structure.vertices_m[5].z() += 1e-6F;
-  cached(moved);
-  World turned = world_;
-  std::swap(turned.structure.faces[3][0], turned.structure.faces[3][1]);
-  cached(turned);
-  cached(world_, {.floor_z_m = 0.7});
-  cached(world_, {.sample_spacing_m = 0.02});
-  cached(world_, {.directions = 64});
-  cached(world_, {.escape_near_m = 1e-3});
-  cached(world_, {.fewest_samples = 1000});
-  World around = world_;
-  around.obstacles = world_.structure;
-  cached(around);
-  std::swap(around.obstacles, around.terrain);
-  cached(around);
+  std::vector<World> worlds(5, world_);
+  worlds[1].structure.vertices_m[5].z() += 1e-6F;
+  std::swap(worlds[2].structure.faces[3][0], worlds[2].structure.faces[3][1]);
+  worlds[3].obstacles = world_.structure;
+  worlds[4].terrain = world_.structure;
+  for (const World& world : worlds) cached(world);
   ReferenceConfig half;
   half.region_m.max().x() = 0.1;
-  cached(world_, half);
+  for (const ReferenceConfig& config :
+       {ReferenceConfig{.floor_z_m = 0.7}, ReferenceConfig{.sample_spacing_m = 0.02},
+        ReferenceConfig{.directions = 64}, ReferenceConfig{.escape_near_m = 1e-3},
+        ReferenceConfig{.fewest_samples = 1000}, half}) {
+    cached(world_, config);
+  }
   EXPECT_EQ(files().size(), 11U);
-  World coloured = world_;
-  coloured.structure.materials[0].rgb = {0.1F, 0.2F, 0.3F};
-  cached(coloured);
+  world_.structure.materials[0].rgb = {0.1F, 0.2F, 0.3F};
+  cached(world_);
   EXPECT_EQ(files().size(), 11U);
 }
 

@@ -129,11 +129,6 @@ TEST(SurroundingsScore, WhatLiesUnderTheTerrainIsNotSeen) {
       12.0 / 24.0, 0.02);
 }
 
-TEST(Region, OfEverythingIsNone) {
-  const World world = cube_and_fence();
-  EXPECT_EQ(reference_in(world, Box3(Vec3(-9, -9, -9), Vec3(9, 9, 9))), reference_in(world, kAll));
-}
-
 TEST(Region, HalvesShareTheReferenceBetweenThem) {
   const World world = cube_and_fence();
   const SurfaceReference whole = reference_in(world, kAll);

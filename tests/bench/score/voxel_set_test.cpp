@@ -63,14 +63,6 @@ TEST(VoxelSet, CoarserSizesNestExactly) {
   }
 }
 
-TEST(VoxelSet, IsSortedAndUnique) {
-  const VoxelSet set = voxels_of(random_points(20000, 3), 0.5);
-  EXPECT_TRUE(std::is_sorted(set.begin(), set.end()));
-  EXPECT_EQ(std::adjacent_find(set.begin(), set.end()), set.end());
-  EXPECT_GE(set.size(), 8U * 8U * 8U);  // [-2, 2) is eight voxels, 2 the first point of a ninth
-  EXPECT_LE(set.size(), 9U * 9U * 9U);
-}
-
 TEST(VoxelSet, NamesThePointThatHasNoVoxel) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
                           std::numeric_limits<float>::infinity(), 1e6F, -1e6F}) {
@@ -98,18 +90,6 @@ TEST(Coverage, NothingCoversNothing) {
   EXPECT_EQ(coverage(some, {}), 0.0);
   EXPECT_EQ(coverage({}, some), 0.0);
   EXPECT_EQ(coverage(some, some), 1.0);
-}
-
-TEST(Coverage, NeverFallsWithMorePoints) {
-  const VoxelSet reference = voxels_of(random_points(3000, 8), 0.1);
-  const std::vector<Vec3f> points = random_points(3000, 9);
-  double last = 0.0;
-  for (std::size_t n = 0; n <= points.size(); n += 100) {
-    const double now = coverage(reference, voxels_of(std::span(points).first(n), 0.1));
-    EXPECT_GE(now, last);
-    last = now;
-  }
-  EXPECT_GT(last, 0.0);
 }
 
 /// A cube of a metre whose faces lie in the middle of voxels of 0.04 m.

@@ -119,47 +119,43 @@ TEST_F(Report, ASoundMeshHasOnlyGoodFindings) {
   EXPECT_TRUE(says(finding(report, "floor").what, "14.4 %")) << finding(report, "floor").what;
 }
 
-TEST_F(Report, MillimetresTakenAsMetresAreSuspectAndTheFlagPutsThemRight) {
-  const TriangleMesh big = tower({-2000, -3000, 0}, 1000.0);
-  const Finding size = finding(of(big), "size");
-  EXPECT_EQ(size.severity, Severity::warning);
-  EXPECT_TRUE(says(size.fix, "--set structure.file.unit_m=0.001 (8 m")) << size.fix;
-  const MeshReport right = of(big, {"structure.file.unit_m=0.001"});
-  EXPECT_EQ(finding(right, "size").severity, Severity::ok);
-  EXPECT_TRUE(right.is_usable());
-  EXPECT_EQ(finding(of(tower({0, 0, 0}, 0.001)), "size").severity, Severity::warning);
+TriangleMesh lying(TriangleMesh mesh) {
+  for (Vec3f& v : mesh.vertices_m) v = {v.x(), v.z(), -v.y()};  // y up
+  return mesh;
 }
 
-TEST_F(Report, AStructureOnItsSideIsSuspectAndTheFlagPutsItUpright) {
-  TriangleMesh lying = tower({-2, -3, 0});
-  for (Vec3f& v : lying.vertices_m) v = {v.x(), v.z(), -v.y()};  // y up
-  const Finding up = finding(of(lying), "up axis");
-  EXPECT_EQ(up.severity, Severity::warning);
-  EXPECT_TRUE(says(up.fix, "structure.file.up_axis=y")) << up.fix;
-  const Finding upright = finding(of(lying, {"structure.file.up_axis=y"}), "up axis");
-  EXPECT_EQ(upright.severity, Severity::ok) << upright.what;
-}
-
-TEST_F(Report, TheOffsetItAdvisesStandsTheStructureOnTheGround) {
-  const TriangleMesh sunk = tower({-2, -3, -1.5});
-  const Finding ground = finding(of(sunk), "ground");
-  EXPECT_EQ(ground.severity, Severity::warning);
-  // 24 m2 of the bottom and 1.5 m of 20 m around, of 208 m2
-  EXPECT_TRUE(says(ground.what, "26.0 %")) << ground.what;
-  EXPECT_TRUE(says(ground.fix, "structure.file.offset_m=[0, 0, 1.5]")) << ground.fix;
-  EXPECT_EQ(finding(of(sunk, {"structure.file.offset_m=[0, 0, 1.5]"}), "ground").severity,
-            Severity::ok);
-  EXPECT_EQ(finding(of(tower({0, 0, 30})), "ground").severity, Severity::note);
-}
-
-TEST_F(Report, FarFromTheOriginNoMapReaches) {
-  const MeshReport far = of(tower({500000, 0, 0}));
-  EXPECT_FALSE(far.is_usable());
-  EXPECT_TRUE(says(finding(far, "place").fix, "offset_m=[-500002, -3, 0]"))
-      << finding(far, "place").fix;
-  const MeshReport near = of(tower({50, 0, 0}));
-  EXPECT_TRUE(near.is_usable());
-  EXPECT_TRUE(says(finding(near, "place").fix, "--bounds auto"));
+TEST_F(Report, ASuspectPlaceOrSizeIsNamedAndTheFlagPutsItRight) {
+  struct Flaw {
+    TriangleMesh mesh;
+    const char* check;
+    Severity severity;
+    const char* what;
+    const char* fix;
+    const char* set;  // that puts it right
+  };
+  const std::vector<Flaw> flaws = {
+      {tower({-2000, -3000, 0}, 1000.0), "size", Severity::warning, "large",
+       "--set structure.file.unit_m=0.001 (8 m", "structure.file.unit_m=0.001"},
+      {tower({0, 0, 0}, 0.001), "size", Severity::warning, "small", "", ""},
+      {lying(tower({-2, -3, 0})), "up axis", Severity::warning, "y = 0", "structure.file.up_axis=y",
+       "structure.file.up_axis=y"},
+      // 24 m2 of the bottom and 1.5 m of 20 m around, of 208 m2
+      {tower({-2, -3, -1.5}), "ground", Severity::warning, "26.0 %",
+       "structure.file.offset_m=[0, 0, 1.5]", "structure.file.offset_m=[0, 0, 1.5]"},
+      {tower({0, 0, 30}), "ground", Severity::note, "floats", "offset_m", ""},
+      {tower({500000, 0, 0}), "place", Severity::error, "reaches only", "offset_m=[-500002, -3, 0]",
+       "structure.file.offset_m=[-500002, -3, 0]"},
+      {tower({50, 0, 0}), "place", Severity::note, "outside", "--bounds auto", ""}};
+  for (const Flaw& flaw : flaws) {
+    const MeshReport report = of(flaw.mesh);
+    const Finding found = finding(report, flaw.check);
+    EXPECT_EQ(report.is_usable(), flaw.severity != Severity::error) << found.what;
+    EXPECT_EQ(found.severity, flaw.severity) << found.what;
+    EXPECT_TRUE(says(found.what, flaw.what)) << found.what;
+    EXPECT_TRUE(says(found.fix, flaw.fix)) << found.fix;
+    if (*flaw.set == '\0') continue;
+    EXPECT_EQ(finding(of(flaw.mesh, {flaw.set}), flaw.check).severity, Severity::ok) << flaw.set;
+  }
 }
 
 TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {

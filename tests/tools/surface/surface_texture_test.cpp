@@ -106,6 +106,16 @@ TEST(Texture, TheNearerAndTheMoreFrontalPictureServesAFace) {
   EXPECT_EQ(inner({view_from(-1.5F, 2.0F), view_from(0.0F, 2.5F)}), 1);
 }
 
+/// Of pictures that are about as good, each shows a third or the whole of the sheet.
+TEST(Texture, ThePictureThatShowsTheMostTakesItAll) {
+  const TriangleMesh mesh = sheet();
+  const auto chosen =
+      chosen_views(mesh, {view_from(-1.0F, 2.0F), view_from(0.0F, 2.1F), view_from(1.0F, 2.0F)});
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    EXPECT_EQ(chosen[face], is_at_edge(mesh, face) ? kNoView : 1);
+  }
+}
+
 TEST(Texture, APictureWhoseDepthDisagreesIsNotUsed) {
   const TriangleMesh mesh = sheet();
   const auto view_at = [](float z_m, std::uint16_t depth_mm, double range_max_m) {
