@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bench/limits/cloud_of_views.hpp"
+#include "bench/limits/free_yaw_camera.hpp"
 #include "bench/score/content_cache.hpp"
 #include "bench/score/packed_numbers.hpp"
 #include "sim/core/parallel.hpp"
@@ -26,16 +27,6 @@ std::vector<CameraModel> coarse(std::span<const CameraModel> cameras) {
     out.push_back(make_camera_model(config));
   }
   return out;
-}
-
-double reach_m(std::span<const CameraModel> cameras) {
-  double farthest_m = 0.0;
-  for (const CameraModel& camera : cameras) {
-    const CameraConfig& c = camera.config;
-    const double corner = std::hypot(1.0, std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
-    farthest_m = std::max(farthest_m, c.p_body_m.norm() + c.range_max_m * corner);
-  }
-  return farthest_m;
 }
 
 /// Lattice steps between surveyed positions: one where two are more than half of what the most
@@ -64,7 +55,9 @@ std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalVie
   const std::vector<CameraModel> quick = coarse(cameras);
   const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
   const std::vector<double> pitches = gimbal ? pitches_rad(*gimbal) : std::vector<double>{0.0};
-  const double far_m = reach_m(cameras);
+  double far_m = 0.0;
+  for (const CameraModel& camera : cameras)
+    far_m = std::max(far_m, FreeYawCamera(camera).reach_m());
   const std::int32_t stride = stride_of(legal, cameras);
   std::vector<std::vector<SurveyedView>> at(legal.size());
   parallel_for(threads, legal.size(), [&](std::size_t i) {

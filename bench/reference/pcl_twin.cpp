@@ -88,11 +88,6 @@ std::uint32_t PclNeighbours::count(std::size_t point) {
       (*state_->cloud)[point], state_->radius_m, state_->indices, state_->distances2));
 }
 
-std::span<const int> PclNeighbours::near(std::size_t point) {
-  count(point);
-  return state_->indices;
-}
-
 std::vector<std::uint32_t> pcl_neighbour_counts(std::span<const Vec3f> points_m, double radius_m) {
   PclNeighbours neighbours(radius_m);
   neighbours.append(points_m);

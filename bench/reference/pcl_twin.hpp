@@ -47,11 +47,9 @@ class PclNeighbours {
 
   void append(std::span<const Vec3f> points_m);
   std::size_t size() const;
-  /// Builds the kd-tree of all points anew; for count() and near().
+  /// Builds the kd-tree of all points anew; for count().
   void build();
   std::uint32_t count(std::size_t point);
-  /// Their indices, valid until the next question.
-  std::span<const int> near(std::size_t point);
 
  private:
   struct State;

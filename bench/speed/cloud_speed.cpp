@@ -121,19 +121,17 @@ class Race {
     return grid_.index_of(grid_.key_of(cloud_.points_world_m()[point]));
   }
 
-  /// The paper's way asks for the points of the voxels that received some. The other voxels whose
-  /// density changed are asked for afterwards, for the comparison alone.
+  /// The paper's way asks for the points of the voxels that received some.
   void time_reference(const std::vector<Vec3f>& hits_m, const CloudSums& before) {
     const CloudSums after = sums_of(cloud_, grid_);
-    std::vector<std::uint32_t> asked;
-    std::vector<std::uint32_t> changed;
+    CloudSums by_pcl = after;
+    std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < pcl_.size(); ++i) {
       const VoxelIndex v = voxel_of(i);
-      if (after.points[v] != before.points[v]) {
-        asked.push_back(static_cast<std::uint32_t>(i));
-      } else if (after.neighbours[v] != before.neighbours[v]) {
-        changed.push_back(static_cast<std::uint32_t>(i));
-      }
+      if (after.points[v] == before.points[v]) continue;
+      asked.push_back(i);
+      by_pcl.points[v] = 0;
+      by_pcl.neighbours[v] = 0;
     }
     const PclCloud batch(hits_m);
     std::optional<PclCloud> filtered;
@@ -143,41 +141,12 @@ class Race {
       pcl_.build();
       for (std::size_t i = 0; i < asked.size(); ++i) counts[i] = pcl_.count(asked[i]);
     }));
-    is_identical_ = is_identical_ && filtered->size() == leaf_filter(hits_m, leaf_m_).size();
-    for (const std::uint32_t point : changed) {
-      asked.push_back(point);
-      counts.push_back(pcl_.count(point));
-    }
-    compare(before, after, asked, counts);
-  }
-
-  /// What PCL counted in the voxels that changed is what ours holds, and no other voxel owes more.
-  void compare(const CloudSums& before, const CloudSums& after,
-               const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& counts) {
-    CloudSums by_pcl{.points = std::vector<std::uint32_t>(after.points.size(), 0),
-                     .neighbours = std::vector<std::uint64_t>(after.points.size(), 0)};
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      const VoxelIndex v = voxel_of(asked[i]);
-      ++by_pcl.points[v];
-      by_pcl.neighbours[v] += counts[i];
+      ++by_pcl.points[voxel_of(asked[i])];
+      by_pcl.neighbours[voxel_of(asked[i])] += counts[i];
     }
-    std::size_t points_before = 0;
-    for (std::size_t v = 0; v < after.points.size(); ++v) {
-      points_before += before.points[v];
-      if (!is_changed(before, after, v)) continue;
-      is_identical_ = is_identical_ && by_pcl.points[v] == after.points[v] &&
-                      by_pcl.neighbours[v] == after.neighbours[v];
-    }
-    for (std::size_t i = points_before; i < pcl_.size(); ++i) {
-      for (const int near : pcl_.near(i)) {
-        const VoxelIndex v = voxel_of(static_cast<std::size_t>(near));
-        is_identical_ = is_identical_ && is_changed(before, after, v);
-      }
-    }
-  }
-
-  static bool is_changed(const CloudSums& before, const CloudSums& after, std::size_t v) {
-    return after.points[v] != before.points[v] || after.neighbours[v] != before.neighbours[v];
+    is_identical_ =
+        is_identical_ && by_pcl == after && filtered->size() == leaf_filter(hits_m, leaf_m_).size();
   }
 
   double leaf_m_ = CloudConfig{}.leaf_m;

@@ -58,8 +58,7 @@ std::vector<SpeedRow> view_speed();
 /// cloud, and the neighbour counts of every point in the voxels that received points. Its clouds
 /// are PCL's before the clock runs, and it is told which voxels those are. The competent way:
 /// KdDensityTwin, from the hits on. Identical: the number of leaves; for PCL, point_count and
-/// neighbour_sum of all voxels whose density changed, and no new point within reach of another
-/// voxel's points; for the competent way, those of every voxel.
+/// neighbour_sum of the voxels that received points; for the competent way, those of every voxel.
 std::vector<SpeedRow> cloud_speed();
 
 /// The paper's workspace and floor rule.
