@@ -142,19 +142,16 @@ TEST(CloudDistances, EqualBruteForce) {
   EXPECT_GT(near[1], 0U);
 }
 
-TEST(CloudDensity, OfTwoVoxelsIsTheirMeanAndSpread) {
+TEST(CloudDensity, IsTheMeanOfTheVoxelsAndTheirSpread) {
   std::vector<Vec3f> points(3, Vec3f(0.1F, 0.1F, 0.1F));
   points.insert(points.end(), 5, Vec3f(-0.1F, 0.1F, 0.1F));
-  const CloudDensity density = cloud_density(points, 0.2);
-  EXPECT_EQ(density.voxel_m, 0.2);
-  EXPECT_EQ(density.mean_points, 4.0);
-  EXPECT_NEAR(density.variation, 1.0 / 4.0, 1e-12);
-}
-
-TEST(CloudDensity, OfAnEvenGridHasNoVariation) {
-  const CloudDensity density = cloud_density(points_above_sheet(0.05, 0.01), 0.2);
-  EXPECT_EQ(density.mean_points, 16.0);
-  EXPECT_NEAR(density.variation, 0.0, 1e-7);
+  const CloudDensity two = cloud_density(points, 0.2);
+  EXPECT_EQ(two.voxel_m, 0.2);
+  EXPECT_EQ(two.mean_points, 4.0);
+  EXPECT_NEAR(two.variation, 1.0 / 4.0, 1e-12);
+  const CloudDensity even = cloud_density(points_above_sheet(0.05, 0.01), 0.2);
+  EXPECT_EQ(even.mean_points, 16.0);
+  EXPECT_NEAR(even.variation, 0.0, 1e-7);
   EXPECT_EQ(cloud_density({}, 0.2).mean_points, 0.0);
 }
 

@@ -21,47 +21,64 @@ namespace fs = std::filesystem;
 /// The cache in a folder of the test's own.
 class ContentCache : public testing::Test {
  protected:
-  ContentCache() { setenv("GNBV_CACHE", temp_.path().c_str(), 1); }
-  ~ContentCache() override { unsetenv("GNBV_CACHE"); }
+  ContentCache() { setenv("GNBV_CACHE", folder().c_str(), 1); }
+  ~ContentCache() override {
+    unsetenv("GNBV_CACHE");
+    unsetenv("GNBV_CACHE_LIMIT");
+  }
+
+  fs::path folder() const { return temp_.path() / "cache"; }
+  fs::path file(const std::string& key) const { return folder() / "kind" / key; }
+
+  /// A result that is so many seconds old.
+  void store(const std::string& key, int age_s) const {
+    store_cached("kind", key, std::string(1000, 'x'));
+    grow_old(file(key), age_s);
+  }
+  static void grow_old(const fs::path& path, int age_s) {
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::seconds(age_s));
+  }
+  std::uint64_t size_of_one() const { return fs::file_size(file("a")); }
+  /// The names of the kind's files, one letter each.
+  std::string kept() const {
+    std::string names;
+    for (const auto& entry : fs::directory_iterator(folder() / "kind")) {
+      names += entry.path().filename().string();
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
 
   TempFolder temp_;
 };
 
 const std::string kBytes("a\0b\n\xff", 5);
 
-TEST_F(ContentCache, ReturnsWhatWasStoredAndNothingElse) {
-  EXPECT_EQ(load_cached("kind-1", "00"), std::nullopt);
-  store_cached("kind-1", "00", kBytes);
-  EXPECT_EQ(load_cached("kind-1", "00"), kBytes);
-  store_cached("kind-1", "00", "");
-  EXPECT_EQ(load_cached("kind-1", "00"), "");
-  EXPECT_EQ(load_cached("kind-1", "01"), std::nullopt);
-}
-
-TEST_F(ContentCache, TwoKindsDoNotCollide) {
-  store_cached("kind-1", "00", "one");
+TEST_F(ContentCache, ReturnsWhatThisProgramStoredUnderKindAndKey) {
+  EXPECT_EQ(load_cached("kind", "00"), std::nullopt);
+  for (const std::string& bytes : {kBytes, std::string()}) {
+    store_cached("kind", "00", bytes);
+    EXPECT_EQ(load_cached("kind", "00"), bytes);
+  }
+  EXPECT_EQ(load_cached("kind", "01"), std::nullopt);
   EXPECT_EQ(load_cached("kind-2", "00"), std::nullopt);
   store_cached("kind-2", "00", "two");
-  EXPECT_EQ(load_cached("kind-1", "00"), "one");
-  EXPECT_EQ(load_cached("kind-2", "00"), "two");
-}
-
-TEST_F(ContentCache, WhatAnotherProgramStoredIsNotReturned) {
-  store_cached("kind-1", "00", "old", "old sources");
-  EXPECT_EQ(load_cached("kind-1", "00"), std::nullopt);
-  store_cached("kind-1", "00", "new");
-  EXPECT_EQ(load_cached("kind-1", "00"), "new");
-  EXPECT_EQ(load_cached("kind-1", "00", scoring_source_id()), "new");
-  EXPECT_EQ(load_cached("kind-1", "00", "old sources"), std::nullopt);
+  EXPECT_EQ(load_cached("kind", "00"), "");
+  store_cached("kind", "00", "old", "old sources");
+  EXPECT_EQ(load_cached("kind", "00"), std::nullopt);
+  store_cached("kind", "00", "new");
+  EXPECT_EQ(load_cached("kind", "00", scoring_source_id()), "new");
+  EXPECT_EQ(load_cached("kind", "00", "old sources"), std::nullopt);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "kind"), {}), 1);  // no .part
 }
 
 TEST_F(ContentCache, AFileWithAnyByteWrongMissingOrAddedIsNotReturned) {
-  store_cached("kind-1", "00", kBytes);
-  const fs::path file = temp_.path() / "kind-1" / "00";
+  store_cached("kind", "00", kBytes);
+  const fs::path file = this->file("00");
   const std::string whole = read_file(file);
   const auto content_with = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
-    return load_cached("kind-1", "00");
+    return load_cached("kind", "00");
   };
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string damaged = whole;
@@ -73,23 +90,18 @@ TEST_F(ContentCache, AFileWithAnyByteWrongMissingOrAddedIsNotReturned) {
   EXPECT_EQ(content_with(whole), kBytes);
 }
 
-TEST_F(ContentCache, NothingButWholeFilesIsLeftBehind) {
-  for (int i = 0; i < 3; ++i) store_cached("kind-1", "00", kBytes);
-  EXPECT_EQ(std::distance(fs::directory_iterator(temp_.path() / "kind-1"), {}), 1);
-}
-
 TEST_F(ContentCache, WithoutAFolderNothingIsKept) {
   std::ofstream(temp_.path() / "file") << "x";
   for (const std::string& nowhere : {std::string(), (temp_.path() / "file").string()}) {
     setenv("GNBV_CACHE", nowhere.c_str(), 1);
     EXPECT_EQ(cache_folder(), nowhere);
-    store_cached("kind-1", "00", kBytes);
-    EXPECT_EQ(load_cached("kind-1", "00"), std::nullopt);
+    store_cached("kind", "00", kBytes);
+    EXPECT_EQ(load_cached("kind", "00"), std::nullopt);
   }
 }
 
 TEST_F(ContentCache, FolderFollowsTheEnvironment) {
-  EXPECT_EQ(cache_folder(), temp_.path());
+  EXPECT_EQ(cache_folder(), folder());
   unsetenv("GNBV_CACHE");
   const char* const xdg = std::getenv("XDG_CACHE_HOME");
   const std::string before = xdg == nullptr ? "" : xdg;
@@ -103,45 +115,11 @@ TEST_F(ContentCache, FolderFollowsTheEnvironment) {
 }
 
 TEST_F(ContentCache, AKeyThatLeavesTheFolderIsABrokenInvariant) {
-  EXPECT_THROW(store_cached("kind-1", "../00", kBytes), BrokenInvariant);
+  EXPECT_THROW(store_cached("kind", "../00", kBytes), BrokenInvariant);
   EXPECT_THROW(load_cached("", "00"), BrokenInvariant);
 }
 
-/// A cache in a folder of the test's own, whose results are so many seconds old.
-class CacheLimit : public testing::Test {
- protected:
-  CacheLimit() { setenv("GNBV_CACHE", folder().c_str(), 1); }
-  ~CacheLimit() override {
-    unsetenv("GNBV_CACHE");
-    unsetenv("GNBV_CACHE_LIMIT");
-  }
-
-  fs::path folder() const { return temp_.path() / "cache"; }
-  fs::path file(const std::string& key) const { return folder() / "kind" / key; }
-
-  void store(const std::string& key, int age_s) const {
-    store_cached("kind", key, std::string(1000, 'x'));
-    grow_old(file(key), age_s);
-  }
-  static void grow_old(const fs::path& path, int age_s) {
-    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::seconds(age_s));
-  }
-  std::uint64_t size_of_one() const { return fs::file_size(file("a")); }
-  std::string kept() const {
-    std::string names;
-    for (const auto& entry : fs::directory_iterator(folder() / "kind")) {
-      names += entry.path().filename().string() + " ";
-    }
-    std::sort(names.begin(), names.end());
-    names.erase(std::remove(names.begin(), names.end(), ' '), names.end());
-    return names;
-  }
-
- private:
-  TempFolder temp_;
-};
-
-TEST_F(CacheLimit, WhatWasNotUsedForLongestGoesFirst) {
+TEST_F(ContentCache, WhatWasNotUsedForLongestGoesFirst) {
   store("a", 30);
   store("b", 50);
   store("c", 40);
@@ -159,7 +137,7 @@ TEST_F(CacheLimit, WhatWasNotUsedForLongestGoesFirst) {
   EXPECT_EQ(kept(), "");
 }
 
-TEST_F(CacheLimit, StoringNeverExceedsIt) {
+TEST_F(ContentCache, StoringNeverExceedsIt) {
   store("a", 50);
   store("b", 40);
   const std::uint64_t one = size_of_one();
@@ -174,7 +152,7 @@ TEST_F(CacheLimit, StoringNeverExceedsIt) {
   EXPECT_EQ(kept(), "bc");
 }
 
-TEST_F(CacheLimit, OnlyResultsAndLeftPartsAreRemoved) {
+TEST_F(ContentCache, OnlyResultsAndLeftPartsAreRemoved) {
   store("a", 50);
   std::ofstream(folder() / "kind" / "thesis.txt") << "mine";
   std::ofstream(folder() / "kind" / "movie.part") << "mine";
@@ -193,7 +171,7 @@ TEST_F(CacheLimit, OnlyResultsAndLeftPartsAreRemoved) {
   EXPECT_FALSE(fs::exists(file("a")));
 }
 
-TEST_F(CacheLimit, TheFolderSaysWhatItHolds) {
+TEST_F(ContentCache, TheFolderSaysWhatItHolds) {
   EXPECT_TRUE(cache_kinds(folder()).empty());
   store("a", 1);
   store("b", 1);
@@ -207,7 +185,7 @@ TEST_F(CacheLimit, TheFolderSaysWhatItHolds) {
 }
 
 /// Whoever loads while others prune and store gets the whole result or none.
-TEST_F(CacheLimit, PruningBesideReadersAndWriters) {
+TEST_F(ContentCache, PruningBesideReadersAndWriters) {
   const std::string content(20'000, 'x');
   std::atomic<bool> is_over = false;
   std::atomic<int> wrong = 0;
@@ -233,7 +211,7 @@ TEST_F(CacheLimit, PruningBesideReadersAndWriters) {
   EXPECT_GE(found, 3);
 }
 
-TEST_F(CacheLimit, IsAWholeNumberOfBytes) {
+TEST_F(ContentCache, IsAWholeNumberOfBytes) {
   EXPECT_EQ(cache_limit_bytes(), kDefaultCacheLimit_bytes);
   setenv("GNBV_CACHE_LIMIT", "", 1);
   EXPECT_EQ(cache_limit_bytes(), kDefaultCacheLimit_bytes);

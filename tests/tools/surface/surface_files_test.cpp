@@ -82,12 +82,34 @@ TEST(SurfaceFiles, LinesOfOthersAreNamed) {
   }
 }
 
-template <typename T>
-T value_at(const std::string& bytes, std::size_t at) {
-  T value{};
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
+/// A GLB taken apart.
+struct Glb {
+  explicit Glb(const std::string& glb)
+      : bytes(glb),
+        json(nlohmann::json::parse(glb.substr(20, at<std::uint32_t>(12)))),
+        data(28 + at<std::uint32_t>(12)) {
+    EXPECT_EQ(glb.substr(0, 4), "glTF");
+    EXPECT_EQ(at<std::uint32_t>(8), glb.size());
+    EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
+    EXPECT_EQ(json["extensionsUsed"][0], "KHR_materials_unlit");
+  }
+  template <typename T>
+  T at(std::size_t where) const {
+    T value{};
+    std::memcpy(&value, bytes.data() + where, sizeof value);
+    return value;
+  }
+  std::size_t view(const nlohmann::json& index) const {
+    return data + json["bufferViews"][index.get<std::size_t>()]["byteOffset"].get<std::size_t>();
+  }
+  const nlohmann::json& accessor(const nlohmann::json& index) const {
+    return json["accessors"][index.get<std::size_t>()];
+  }
+
+  const std::string& bytes;
+  const nlohmann::json json;
+  std::size_t data;
+};
 
 TEST(SurfaceFiles, WithoutATextureTheGlbShowsTheColoursOfTheVerticesUnlit) {
   TexturedMesh mesh = with_height_colours(sheet(1.0F, 2));
@@ -95,51 +117,37 @@ TEST(SurfaceFiles, WithoutATextureTheGlbShowsTheColoursOfTheVerticesUnlit) {
     const auto level = static_cast<std::uint8_t>(i);  // dark
     mesh.vertex_rgb[i] = {level, static_cast<std::uint8_t>(2 * level), 255};
   }
-  const std::string glb = glb_of(mesh, "");
-  const auto json_bytes = value_at<std::uint32_t>(glb, 12);
-  const auto json = nlohmann::json::parse(glb.substr(20, json_bytes));
-  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
-  EXPECT_EQ(json["extensionsUsed"][0], "KHR_materials_unlit");
-  const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
-  const auto& accessor = json["accessors"][attributes["COLOR_0"].get<std::size_t>()];
+  const std::string bytes = glb_of(mesh, "");
+  const Glb glb(bytes);
+  const auto& accessor =
+      glb.accessor(glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]);
   EXPECT_EQ(accessor["componentType"], 5123);  // unsigned short
   EXPECT_EQ(accessor["normalized"], true);
-  const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-  const std::size_t begin = 28 + json_bytes + view["byteOffset"].get<std::size_t>();
+  const std::size_t begin = glb.view(accessor["bufferView"]);
   const DistinctCorners corners = distinct_corners(mesh);
   for (std::size_t i = 0; i < corners.vertex.size(); ++i) {
+    const auto rgba = glb.at<std::array<std::uint16_t, 4>>(begin + 8 * i);
     for (std::size_t k = 0; k < 3; ++k) {
-      const float linear =
-          static_cast<float>(value_at<std::uint16_t>(glb, begin + 8 * i + 2 * k)) / 65535.0F;
+      const float linear = static_cast<float>(rgba[k]) / 65535.0F;
       EXPECT_NEAR(255.0F * linear_to_srgb(linear), mesh.vertex_rgb[corners.vertex[i]][k], 0.1F);
     }
-    EXPECT_EQ(value_at<std::uint16_t>(glb, begin + 8 * i + 6), 65535);
+    EXPECT_EQ(rgba[3], 65535);
   }
 }
 
 TEST(SurfaceFiles, TheGlbHoldsTheAtlasAndItsCoordinates) {
   const TexturedMesh mesh = textured();
   const std::string png(37, 'p');
-  const std::string glb = glb_of(mesh, png);
-  const auto word = [&](std::size_t at) { return value_at<std::uint32_t>(glb, at); };
-  ASSERT_EQ(glb.substr(0, 4), "glTF");
-  ASSERT_EQ(word(8), glb.size());
-  const auto json = nlohmann::json::parse(glb.substr(20, word(12)));
-  EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
-  const std::size_t data = 20 + word(12) + 8;
-  const auto view_at = [&](std::size_t view) {
-    return data + json.at("bufferViews").at(view).at("byteOffset").get<std::size_t>();
-  };
-  EXPECT_EQ(glb.substr(view_at(json["images"][0]["bufferView"]), png.size()), png);
-  const auto& primitive = json["meshes"][0]["primitives"][0];
-  const auto begin_of = [&](std::size_t accessor) {
-    return view_at(json["accessors"][accessor]["bufferView"]);
-  };
-  const std::size_t uv = begin_of(primitive["attributes"]["TEXCOORD_0"]);
-  const std::size_t indices = begin_of(primitive["indices"]);
+  const std::string bytes = glb_of(mesh, png);
+  const Glb glb(bytes);
+  EXPECT_EQ(bytes.substr(glb.view(glb.json["images"][0]["bufferView"]), png.size()), png);
+  const auto& primitive = glb.json["meshes"][0]["primitives"][0];
+  const std::size_t uv =
+      glb.view(glb.accessor(primitive["attributes"]["TEXCOORD_0"])["bufferView"]);
+  const std::size_t indices = glb.view(glb.accessor(primitive["indices"])["bufferView"]);
   for (std::size_t i = 0; i < 3 * mesh.shape.faces.size(); ++i) {
-    std::array<float, 2> read{};
-    std::memcpy(read.data(), glb.data() + uv + 8 * word(indices + 4 * i), sizeof read);
+    const auto corner = glb.at<std::uint32_t>(indices + 4 * i);
+    const auto read = glb.at<std::array<float, 2>>(uv + 8 * corner);
     const Vec2f& made = mesh.face_uv[i / 3][i % 3];
     EXPECT_NEAR(read[0] * static_cast<float>(mesh.atlas.width_px), made.x(), 1e-3F);
     EXPECT_NEAR(read[1] * static_cast<float>(mesh.atlas.height_px), made.y(), 1e-3F);
