@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <mutex>
 #include <span>
 #include <tuple>
@@ -58,19 +59,15 @@ bool is_inside(const LeafKey& leaf, std::uint64_t voxel, double leaf_m) {
   return true;
 }
 
-/// The surface that a voxel has of a leaf that reaches beyond it.
-struct LeafPart {
-  LeafKey leaf;
-  std::uint64_t voxel;
-  double area_m2;
-};
+/// The surface (m2) that a voxel has of a leaf that reaches beyond it.
+using LeafParts = std::map<std::pair<LeafKey, std::uint64_t>, double>;
 
 /// The middle of what a leaf and a voxel have in common.
-Vec3f middle_m(const LeafPart& part, double leaf_m) {
-  const std::array<std::int64_t, 3> index = index_of(part.voxel);
+Vec3f middle_m(const LeafKey& leaf, std::uint64_t voxel, double leaf_m) {
+  const std::array<std::int64_t, 3> index = index_of(voxel);
   Vec3f middle;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double leaf_low_m = leaf_m * static_cast<double>(part.leaf[a]);
+    const double leaf_low_m = leaf_m * static_cast<double>(leaf[a]);
     const double voxel_low_m = kCoverageSizes_m[0] * static_cast<double>(index[a]);
     const double low_m = std::max(leaf_low_m, voxel_low_m);
     const double high_m = std::min(leaf_low_m + leaf_m, voxel_low_m + kCoverageSizes_m[0]);
@@ -80,34 +77,23 @@ Vec3f middle_m(const LeafPart& part, double leaf_m) {
 }
 
 /// Decides who keeps the samples in leaves that reach beyond a voxel.
-void share_leaves(std::vector<LeafPart> parts, double leaf_m, std::span<Sample> samples) {
-  std::stable_sort(parts.begin(), parts.end(), [](const LeafPart& a, const LeafPart& b) {
-    return std::tie(a.leaf, a.voxel) < std::tie(b.leaf, b.voxel);
-  });
-  std::vector<LeafPart> merged;  // one of each leaf and voxel
-  for (const LeafPart& part : parts) {
-    const bool is_more =
-        !merged.empty() && merged.back().leaf == part.leaf && merged.back().voxel == part.voxel;
-    if (is_more) {
-      merged.back().area_m2 += part.area_m2;
-    } else {
-      merged.push_back(part);
-    }
-  }
-  const auto is_before = [](const LeafPart& part, const LeafKey& leaf) { return part.leaf < leaf; };
+void share_leaves(const LeafParts& parts_m2, double leaf_m, std::span<Sample> samples) {
   for (Sample& sample : samples) {
     if (sample.may_keep_leaf) continue;
-    double all_m2 = 0.0, own_m2 = 0.0;
-    const LeafPart* most = nullptr;
-    for (auto part = std::lower_bound(merged.begin(), merged.end(), sample.leaf, is_before);
-         part != merged.end() && part->leaf == sample.leaf; ++part) {
-      all_m2 += part->area_m2;
-      if (part->voxel == sample.voxel) own_m2 = part->area_m2;
-      if (most == nullptr || part->area_m2 > most->area_m2) most = &*part;
+    double all_m2 = 0.0, own_m2 = 0.0, most_m2 = 0.0;
+    std::uint64_t most = sample.voxel;
+    for (auto part = parts_m2.lower_bound({sample.leaf, 0});
+         part != parts_m2.end() && part->first.first == sample.leaf; ++part) {
+      const auto& [key, area_m2] = *part;
+      all_m2 += area_m2;
+      if (key.second == sample.voxel) own_m2 = area_m2;
+      if (area_m2 <= most_m2) continue;
+      most_m2 = area_m2;
+      most = key.second;
     }
     constexpr double kRounding = 1.0 - 1e-6;  // four equal parts are a quarter each
     sample.may_keep_leaf = own_m2 >= kRounding * kLeastLeafShare * all_m2;
-    if (!sample.may_keep_leaf) sample.kept_world_m = middle_m(*most, leaf_m);
+    if (!sample.may_keep_leaf) sample.kept_world_m = middle_m(sample.leaf, most, leaf_m);
   }
 }
 
@@ -117,7 +103,7 @@ std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std
                                double floor_z_m, double leaf_m) {
   const LeafLattice lattice(leaf_m);
   std::vector<Sample> samples;
-  std::vector<LeafPart> parts;
+  LeafParts parts_m2;
   for (const std::uint32_t face : slabs.faces[index]) {
     for_each_piece(mesh, face, slabs.slab(index), floor_z_m, [&](const SurfacePiece& piece) {
       const std::size_t count = std::max(points_on(piece, kSpacing_m), kFewestOfPiece);
@@ -130,11 +116,11 @@ std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std
       for_each_part(piece, leaf_m, [&](const std::array<std::int64_t, 3>& cell, double area_m2) {
         const auto at = [&](std::size_t a) { return static_cast<std::int32_t>(cell[a]); };
         const LeafKey leaf = {at(0), at(1), at(2)};
-        if (!is_inside(leaf, piece.voxel, leaf_m)) parts.push_back({leaf, piece.voxel, area_m2});
+        if (!is_inside(leaf, piece.voxel, leaf_m)) parts_m2[{leaf, piece.voxel}] += area_m2;
       });
     });
   }
-  share_leaves(std::move(parts), leaf_m, samples);
+  share_leaves(parts_m2, leaf_m, samples);
   for (Sample& sample : samples) sample.block = coarser_code(sample.voxel, kCoverageFactors[2]);
   const auto order = [](const Sample& s) { return std::tuple(s.block, s.voxel, s.rank); };
   std::stable_sort(samples.begin(), samples.end(),

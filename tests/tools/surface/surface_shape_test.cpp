@@ -12,6 +12,7 @@
 #include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/tools/surface/pictured_sheet.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_score.hpp"
@@ -198,6 +199,13 @@ TEST(Trim, SmallPartsGoTheRestKeepsItsOrder) {
   EXPECT_EQ(without_scraps(mesh, 0.0).faces.size(), 3U);  // but the one without area
 }
 
+TEST(SurfaceDepth, HasCellsOfTheWantedSize) {
+  const Box3 box(Vec3::Zero(), Vec3(30, 10, 5));
+  EXPECT_EQ(depth_for(box, 33.0 / 256), 8);
+  EXPECT_EQ(depth_for(box, 1e-4), 10);
+  EXPECT_EQ(depth_for(box, 100.0), kMinDepth);
+}
+
 TEST(SeenPoints, ViewsPointsComeFromTheViewsAndCoveredProfilePointsGo) {
   TempFolder temp;
   write_made_run(temp.path());
@@ -323,7 +331,7 @@ TEST(SurfaceShape, PointsThatHoldNoSurfaceAreBadInput) {
   EXPECT_EQ(refusal_of(patch, 0.005), "");
 }
 
-TEST(Decimation, KeepsTheSphereWithinItsTolerance) {
+TEST(Decimation, KeepsTheSphereWithinItsToleranceAndAPlaneInAHandfulOfFaces) {
   const TriangleMesh fine = poisson(oriented(seen_sphere(), 2), 6);
   constexpr double kTolerance_m = 0.01;
   const TriangleMesh coarse = decimated(fine, kTolerance_m);
@@ -333,6 +341,7 @@ TEST(Decimation, KeepsTheSphereWithinItsTolerance) {
     EXPECT_LT(scene.distance_to_structure_m(p_m.cast<double>(), 1.0), 3.0 * kTolerance_m);
   }
   EXPECT_EQ(decimated(fine, 0.0).faces, fine.faces);
+  EXPECT_LE(decimated(sheet(20.0F, 20), 0.01).faces.size(), 80U);
 }
 
 }  // namespace
