@@ -60,11 +60,19 @@ std::optional<std::uint32_t> read_index(std::string_view word, std::size_t count
   return index - 1;
 }
 
-std::optional<float> read_share(std::string_view word) {
-  const std::optional<double> share = read_decimal(word);
-  if (!share || !(*share >= 0.0 && *share <= 1.0)) return std::nullopt;
-  return static_cast<float>(*share);
+/// The numbers of a line, behind its keyword; nothing unless they are so many, and finite.
+std::optional<std::vector<double>> read_numbers(Words words, std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string_view word : words.subspan(1)) {
+    const std::optional<double> x = read_decimal(word);
+    if (!x || !std::isfinite(*x)) return std::nullopt;
+    numbers.push_back(*x);
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
 }
+
+bool is_share(double x) { return x >= 0.0 && x <= 1.0; }
 
 /// One line after the other of what obj_of() writes.
 class SurfaceReader {
@@ -76,8 +84,8 @@ class SurfaceReader {
     split(line, words_);
     if (words_.empty()) return true;
     const std::string_view kind = words_.front();
-    if (kind == "v") return words_.size() == (has_texture() ? 4U : 7U) && read_vertex();
-    if (kind == "vt") return words_.size() == 3 && read_uv();
+    if (kind == "v") return read_vertex();
+    if (kind == "vt") return read_uv();
     if (kind == "f") return words_.size() == 4 && read_face();
     return kind == "#" || kind == "mtllib" || kind == "usemtl";
   }
@@ -88,29 +96,22 @@ class SurfaceReader {
   bool has_texture() const { return !mesh_.atlas.rgb.empty(); }
 
   bool read_vertex() {
-    Vec3f p_m;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::optional<double> x_m = read_decimal(words_[1 + k]);
-      if (!x_m || !std::isfinite(*x_m)) return false;
-      p_m[static_cast<Eigen::Index>(k)] = static_cast<float>(*x_m);
+    const auto numbers = read_numbers(words_, has_texture() ? 3 : 6);
+    if (!numbers || !std::all_of(numbers->begin() + 3, numbers->end(), is_share)) return false;
+    mesh_.shape.vertices_m.push_back(Vec3(numbers->data()).cast<float>());
+    Rgb8& rgb = mesh_.vertex_rgb.emplace_back();
+    for (std::size_t k = 3; k < numbers->size(); ++k) {
+      rgb[k - 3] = static_cast<std::uint8_t>(std::lround(255.0 * (*numbers)[k]));
     }
-    Rgb8 rgb{};
-    for (std::size_t k = 0; k < 3 && !has_texture(); ++k) {
-      const std::optional<float> share = read_share(words_[4 + k]);
-      if (!share) return false;
-      rgb[k] = static_cast<std::uint8_t>(std::lround(255.0F * *share));
-    }
-    mesh_.shape.vertices_m.push_back(p_m);
-    mesh_.vertex_rgb.push_back(rgb);
     return true;
   }
 
   bool read_uv() {
-    const std::optional<float> u = read_share(words_[1]);
-    const std::optional<float> v = read_share(words_[2]);  // upwards
-    if (!u || !v) return false;
-    uv_.emplace_back(*u * static_cast<float>(mesh_.atlas.width_px),
-                     (1.0F - *v) * static_cast<float>(mesh_.atlas.height_px));
+    const auto numbers = read_numbers(words_, 2);  // v upwards
+    if (!numbers || !std::all_of(numbers->begin(), numbers->end(), is_share)) return false;
+    const Vec2f uv = Eigen::Vector2d((*numbers)[0], 1.0 - (*numbers)[1]).cast<float>();
+    uv_.push_back(uv.cwiseProduct(Vec2f(static_cast<float>(mesh_.atlas.width_px),
+                                        static_cast<float>(mesh_.atlas.height_px))));
     return true;
   }
 
