@@ -25,9 +25,33 @@ TriangleMesh wall_with_door(double door_m) {
   return mesh;
 }
 
-LegalViewpoints legal_in(const TriangleMesh& mesh, const Vec3& start, int threads = 2) {
-  const World world{mesh, true};
-  return find_legal_viewpoints(RayScene(world), kRoom, kRadius_m, 0.4, start, threads);
+LegalViewpoints legal_in(const World& world, const Vec3& start, const NoFly& no_fly = {}) {
+  return find_legal_viewpoints(RayScene(world), kRoom, kRadius_m, 0.4, start, 2, no_fly);
+}
+LegalViewpoints legal_in(const TriangleMesh& mesh, const Vec3& start) {
+  return legal_in(World{mesh, true}, start);
+}
+
+/// A structure that is nowhere near.
+TriangleMesh far_away() {
+  TriangleMesh mesh;
+  test::add_sheet(mesh, Vec3(50, 50, 50), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  return mesh;
+}
+
+std::size_t nearest_to(const Vec3& p_m, const LegalViewpoints& legal) {
+  const auto nearest = std::min_element(
+      legal.p_world_m.begin(), legal.p_world_m.end(),
+      [&](const Vec3& a, const Vec3& b) { return (a - p_m).norm() < (b - p_m).norm(); });
+  return static_cast<std::size_t>(nearest - legal.p_world_m.begin());
+}
+
+std::vector<Vec3> points_of(const LatticeWays& ways, std::size_t from, std::size_t to) {
+  std::vector<Vec3> points_m = ways.way(from, to).via_world_m;
+  EXPECT_FALSE(points_m.empty());  // something is in between
+  points_m.insert(points_m.begin(), ways.p_world_m(from));
+  points_m.push_back(ways.p_world_m(to));
+  return points_m;
 }
 
 bool any_beyond_the_wall(const LegalViewpoints& legal) {
@@ -54,9 +78,7 @@ TEST(LegalViewpoints, LeaveOutARoomThatIsClosed) {
 }
 
 TEST(LegalViewpoints, FillAnEmptyRoomToItsFaces) {
-  TriangleMesh far_away;
-  test::add_sheet(far_away, Vec3(50, 50, 50), Vec3(1, 0, 0), Vec3(0, 1, 0));
-  const LegalViewpoints legal = legal_in(far_away, Vec3(0, 0, 1));
+  const LegalViewpoints legal = legal_in(far_away(), Vec3(0, 0, 1));
   EXPECT_EQ(legal.size(), 21U * 21U * 11U);  // 8 x 8 x 4 m in steps of 0.4 m, both ends included
   std::size_t inner = 0;
   for (const auto& neighbours : legal.neighbours) inner += neighbours.size() == 26 ? 1 : 0;
@@ -101,22 +123,14 @@ TEST(LatticeWays, GoRoundTheWallByTheDoor) {
   LatticeWays ways(scene, legal, kRadius_m);
   ways.prepare({ways.start()}, 1);
   // the place that mirrors the start: the straight way is through the wall
-  std::size_t goal = 0;
-  const Vec3 wanted(2, -3, 2);
-  for (std::size_t i = 1; i < legal.size(); ++i) {
-    if ((legal.p_world_m[i] - wanted).norm() < (legal.p_world_m[goal] - wanted).norm()) goal = i;
-  }
-  const Way way = ways.way(ways.start(), goal);
-  ASSERT_FALSE(way.via_world_m.empty());
-  std::vector<Vec3> points = {legal.start_world_m};
-  points.insert(points.end(), way.via_world_m.begin(), way.via_world_m.end());
-  points.push_back(legal.p_world_m[goal]);
+  const std::size_t goal = nearest_to({2, -3, 2}, legal);
+  const std::vector<Vec3> points = points_of(ways, ways.start(), goal);
   double length_m = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     length_m += (points[i] - points[i - 1]).norm();
     EXPECT_TRUE(is_leg_clear(scene, points[i - 1], points[i], kRadius_m));
   }
-  EXPECT_NEAR(way.length_m, length_m, 1e-9);
+  EXPECT_NEAR(ways.way(ways.start(), goal).length_m, length_m, 1e-9);
   // a thread pulled round the door's edge at y = -0.7, half a metre away from it, is no shorter
   // than to the middle of its bend; the lattice's corners make it a little longer
   const double shortest_m = 2.0 * (Vec3(-2, -3, 2) - Vec3(0, -0.2, 2)).norm();
@@ -124,6 +138,41 @@ TEST(LatticeWays, GoRoundTheWallByTheDoor) {
   EXPECT_LE(length_m, 1.15 * shortest_m);
   const std::vector<std::size_t> there = {goal};  // whose row is of the uncut way
   EXPECT_LE(length_m, static_cast<double>(ways.distances_m(ways.start(), there, 1)[0]) + 1e-5);
+}
+
+const Box3 kBlock(Vec3(-1, -2, 0.5), Vec3(1.5, 1, 2.5));
+const Vec3 kStart(-3, -3, 1);
+
+TEST(LegalViewpoints, AnObstacleTakesTheRoomOfAStructureOfItsShape) {
+  World structure;
+  structure.structure = box_mesh(kBlock);
+  World obstacle{far_away()};
+  obstacle.obstacles = box_mesh(kBlock);
+  const LegalViewpoints by_structure = legal_in(structure, kStart);
+  const LegalViewpoints by_obstacle = legal_in(obstacle, kStart);
+  EXPECT_EQ(by_obstacle.p_world_m, by_structure.p_world_m);
+  EXPECT_EQ(by_obstacle.neighbours, by_structure.neighbours);
+  EXPECT_LT(by_obstacle.size(), 21U * 21U * 11U);
+}
+
+TEST(LegalViewpoints, NoViewpointAndNoWayComesNearerToANoFlyBoxThanTheRadius) {
+  const NoFly no_fly{{kBlock}, kRadius_m};
+  const RayScene scene(World{far_away()});
+  const LegalViewpoints legal = legal_in(World{far_away()}, kStart, no_fly);
+  EXPECT_GT(legal.size(), 1000U);
+  EXPECT_LT(legal.size(), 21U * 21U * 11U);
+  for (const Vec3& p_m : legal.p_world_m) EXPECT_GE(kBlock.exteriorDistance(p_m), kRadius_m);
+
+  LatticeWays ways(scene, legal, kRadius_m);
+  const std::size_t from = nearest_to({-3, -0.5, 1.5}, legal);
+  ways.prepare({from}, 1);
+  const std::vector<Vec3> points_m = points_of(ways, from, nearest_to({3.5, -0.5, 1.5}, legal));
+  for (std::size_t k = 1; k < points_m.size(); ++k) {
+    for (int i = 0; i <= 100; ++i) {
+      const Vec3 p_m = points_m[k - 1] + 0.01 * i * (points_m[k] - points_m[k - 1]);
+      EXPECT_GE(kBlock.exteriorDistance(p_m), kRadius_m - 1e-3);
+    }
+  }
 }
 
 /// Shortest ways from the start by going over all legs until nothing changes (Bellman 1958).

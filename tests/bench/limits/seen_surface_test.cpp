@@ -6,6 +6,7 @@
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/limits/cloud_of_views.hpp"
+#include "bench/limits/free_yaw_camera.hpp"
 #include "bench/limits/lidar_sight.hpp"
 #include "bench/limits/sight_search.hpp"
 #include "sim/core/rng.hpp"
@@ -16,9 +17,10 @@
 namespace gnbv {
 namespace {
 
-CameraModel camera(double pitch_rad) {
+CameraModel camera(double pitch_rad, const Vec3& p_body_m = Vec3::Zero()) {
   CameraConfig config;
   config.pitch_rad = pitch_rad;
+  config.p_body_m = p_body_m;
   config.range_max_m = 5.0;
   return make_camera_model(config);
 }
@@ -48,8 +50,10 @@ TriangleMesh two_walls() {
 }
 
 struct Sight {
-  Sight(TriangleMesh mesh, const LegalViewpoints& positions, double pitch_rad)
-      : world{std::move(mesh), true},
+  Sight(const TriangleMesh& mesh, const LegalViewpoints& positions, double pitch_rad)
+      : Sight(World{mesh, true}, positions, pitch_rad) {}
+  Sight(World made, const LegalViewpoints& positions, double pitch_rad)
+      : world(std::move(made)),
         scene(world),
         legal(positions),
         cameras{camera(pitch_rad)},
@@ -157,6 +161,76 @@ TEST(SightSearch, FromAClosedBoxNothingIsOpen) {
   for (std::size_t turn = 0; turn < SightSearch::kTurns; ++turn) {
     EXPECT_EQ(sight.search.look_out(Vec3f(0.3F, 0.2F, 1.5F), turn), SightSearch::Look::closed);
     EXPECT_NE(sight.search.look_out(Vec3f(-1.2F, 0.2F, 1.5F), turn), SightSearch::Look::closed);
+  }
+}
+
+/// A wall of 2 x 2 m at x = 2 and a lower fence of 1.2 m before it, which is nothing, an obstacle
+/// or terrain.
+enum class Fence { none, obstacle, terrain };
+World walled(Fence fence) {
+  World world;
+  test::add_sheet(world.structure, Vec3(2, -1, 1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  TriangleMesh mesh;
+  test::add_sheet(mesh, Vec3(1.5, -9, 0), Vec3(0, 18, 0), Vec3(0, 0, 2));
+  if (fence == Fence::obstacle) world.obstacles = mesh;
+  if (fence == Fence::terrain) world.terrain = mesh;
+  return world;
+}
+
+TEST(SightSearch, NobodySeesTheWallThroughAFence) {
+  for (const Fence fence : {Fence::none, Fence::obstacle, Fence::terrain}) {
+    // before the fence, at the height of the low point and of the high one
+    const Sight sight(walled(fence), lattice_of(Vec3(-1, 0.1, 1.4), 1.2, {1, 1, 2}), 0.0);
+    EXPECT_TRUE(sight.from_lattice(Vec3(2, 0.1, 2.6), kFew));
+    EXPECT_EQ(sight.from_lattice(Vec3(2, 0.1, 1.4), kFew), fence == Fence::none);
+  }
+}
+
+/// Whether the point is in the image and range from there; `slack` widens both.
+bool is_in_image(const CameraModel& model, const ViewPose& view, const Vec3& point_m,
+                 double slack) {
+  const CameraConfig& c = model.config;
+  const Vec3 p = (T_world_body(view) * model.T_body_camera).inverse() * point_m;
+  return p.z() >= c.range_min_m - slack && p.z() <= c.range_max_m + slack &&
+         std::abs(p.x()) <= p.z() * std::tan(0.5 * c.fov_x_rad) + slack &&
+         std::abs(p.y()) <= p.z() * std::tan(0.5 * c.fov_y_rad) + slack;
+}
+
+Vec3 random_point(std::uint64_t index) {
+  const auto u = [&](std::uint64_t axis) {
+    return 12.0 * uniform01({9, Stream::bench, index, axis}) - 6.0;
+  };
+  return {u(0), u(1), u(2)};
+}
+
+TEST(FreeYawCamera, HasInItsImageWhatSomeYawHas) {
+  // the brute force: every tenth of a degree. The bearings tried leave out slivers between them.
+  constexpr double kSliver_m = 0.12;
+  for (const double pitch_rad : {0.0, 0.35, -0.8}) {
+    const CameraModel model = camera(pitch_rad, Vec3(0.1, 0.0, -0.2));
+    const FreeYawCamera free_yaw(model);
+    int found = 0;
+    int missed = 0;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+      const Vec3 vehicle_m(0.5, -0.3, 0.2);
+      const Vec3 point_m = random_point(i);
+      bool some_yaw = false;
+      bool some_yaw_easily = false;
+      for (int k = 0; k < 3600; ++k) {
+        const ViewPose view{vehicle_m, 2.0 * kPi * k / 3600.0};
+        some_yaw = some_yaw || is_in_image(model, view, point_m, 0.02);
+        some_yaw_easily = some_yaw_easily || is_in_image(model, view, point_m, -kSliver_m);
+      }
+      const auto origin_m = free_yaw.origin_world_m(vehicle_m, point_m);
+      EXPECT_TRUE(!origin_m || some_yaw) << i;
+      missed += !origin_m && some_yaw_easily ? 1 : 0;
+      if (!origin_m) continue;
+      ++found;
+      EXPECT_NEAR((*origin_m - vehicle_m).norm(), model.config.p_body_m.norm(), 1e-9);
+      EXPECT_LE((point_m - vehicle_m).norm(), free_yaw.reach_m());
+    }
+    EXPECT_GT(found, 30);
+    EXPECT_LE(missed, 1) << found;
   }
 }
 
@@ -274,7 +348,7 @@ TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
   }
 }
 
-TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
+TEST(LidarSight, SeesAFaceOfTheBoxAndNeitherItsInsideNorThroughAFence) {
   Scenario scenario = load_scenario("smoke", {});
   TriangleMesh mesh;
   test::add_box(mesh, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
@@ -288,6 +362,12 @@ TEST(LidarSight, SeesAFaceOfTheBoxAndNotItsInside) {
     EXPECT_TRUE(lidars.is_seen(Vec3f(0.2F, -1.0F, up))) << z;
     EXPECT_FALSE(lidars.is_seen(Vec3f(0.5F, 0.1F, up))) << z;
   }
+  World fenced = world;  // by an obstacle whose upper end is at 1.6 m
+  test::add_box(fenced.obstacles, Vec3(-1.2, -1.2, 0), Vec3(2.4, 2.4, 1.6), false);
+  const RayScene fenced_scene(fenced);
+  const LidarSight over_the_fence(scenario, fenced_scene);
+  EXPECT_FALSE(over_the_fence.is_seen(Vec3f(1.0F, 0.3F, 0.8F)));
+  EXPECT_TRUE(over_the_fence.is_seen(Vec3f(1.0F, 0.3F, 2.2F)));
   scenario.planner.profiling.method = ProfilingMethod::none;
   EXPECT_FALSE(LidarSight(scenario, scene).is_seen(Vec3f(1.0F, 0.3F, 1.5F)));
 }
