@@ -114,41 +114,41 @@ TEST(Advice, TwoRoundsOfItMakeAnyTransformOfAMeshUsable) {
   }
 }
 
-TEST(Advice, AHairBelowTheFloorIsNoFault) {
+/// A mesh of boxes as a file.
+struct Boxes {
+  explicit Boxes(const std::vector<Box3>& boxes) {
+    TriangleMesh mesh;
+    for (const Box3& box : boxes) test::add_box(mesh, box.min(), box.sizes());
+    write_mesh(mesh, path);
+  }
+  MeshReport report() const { return report_on(path, "aircraft", {}); }
+
   TempFolder temp;
-  const std::string path = (temp.path() / "t.obj").string();
-  TriangleMesh tower;
-  test::add_box(tower, {-2, -3, -1e-4}, {4, 6, 8});
-  write_mesh(tower, path);
-  const MeshReport report = report_on(path, "aircraft", {});
+  std::string path = (temp.path() / "t.obj").string();
+};
+
+TEST(Advice, AHairBelowTheFloorIsNoFault) {
+  const MeshReport report = Boxes({Box3(Vec3(-2, -3, -1e-4), Vec3(2, 3, 8))}).report();
   EXPECT_TRUE(report.advice.sets().empty()) << terminal_text(report);
   EXPECT_FALSE(report.advice.needs_bounds);
   EXPECT_EQ(terminal_text(report).find("all of it"), std::string::npos);
 }
 
 TEST(Advice, AFloorIsNeverRaised) {
-  TempFolder temp;
-  const std::string path = (temp.path() / "t.obj").string();
-  TriangleMesh site;  // most of it flat, with a tower
-  test::add_box(site, {-50, -50, 0}, {100, 100, 0.2});
-  test::add_box(site, {-2, -2, 0}, {4, 4, 50});
-  write_mesh(site, path);
-  const MeshReport report = report_on(path, "aircraft", {});
+  const Boxes site({Box3(Vec3(-50, -50, 0), Vec3(50, 50, 0.2)),  // most of it flat, with a tower
+                    Box3(Vec3(-2, -2, 0), Vec3(2, 2, 50))});
+  const MeshReport report = site.report();
   EXPECT_EQ(report.advice.floor, "planner.floor_z_m=0") << terminal_text(report);
-  expect_two_rounds_do(path, "aircraft", "site");
+  expect_two_rounds_do(site.path, "aircraft", "site");
 }
 
 TEST(Advice, AStartWithinTheStructureNeedsOtherBounds) {
-  TempFolder temp;
-  const std::string path = (temp.path() / "t.obj").string();
-  TriangleMesh hall;
-  test::add_box(hall, {-20, -24, 0}, {40, 48, 8});  // around the aircraft's start
-  write_mesh(hall, path);
-  const MeshReport report = report_on(path, "aircraft", {});
+  const Boxes hall({Box3(Vec3(-20, -24, 0), Vec3(20, 24, 8))});  // around the aircraft's start
+  const MeshReport report = hall.report();
   EXPECT_TRUE(report.advice.needs_bounds);
   EXPECT_NE(terminal_text(report).find("all of it: --bounds auto"), std::string::npos)
       << terminal_text(report);
-  expect_two_rounds_do(path, "aircraft", "hall");
+  expect_two_rounds_do(hall.path, "aircraft", "hall");
 }
 
 }  // namespace

@@ -206,73 +206,65 @@ TEST(SurfaceDepth, HasCellsOfTheWantedSize) {
   EXPECT_EQ(depth_for(box, 100.0), kMinDepth);
 }
 
-TEST(SeenPoints, ViewsPointsComeFromTheViewsAndCoveredProfilePointsGo) {
-  TempFolder temp;
-  write_made_run(temp.path());
-  const std::vector<Vec3f> points = {{0, 0, 1}, {3, 0, 1}, {0.05F, 0, 1},
-                                     {1, 1, 1}, {0, 0, 2}, {1, 1, 2}};
-  write_cloud_ply(points, temp.path() / "cloud.ply");
-  const RunRecord record = read_run(temp.path());
-  const SeenPoints seen = seen_points(record, read_run_cloud(record), 2);
-  ASSERT_EQ(seen.points_world_m.size(), 5U);  // the first lies within a leaf of the third
-  EXPECT_EQ(seen.points_world_m[0], points[1]);
-  EXPECT_EQ(seen.sensors_world_m[0], Vec3f(4, -4, 1));  // nearest pose of the profile
+/// Of the run of tests/support/made_run.hpp.
+class SeenPointsOfRun : public testing::Test {
+ protected:
+  SeenPoints seen() const { return seen_points(record_, cloud_, 2); }
+  Vec3f at_view(std::size_t view) const {
+    return record_.views[view].decision.view.p_world_m.cast<float>();
+  }
+
+  TempFolder temp_;
+  RunRecord record_ = [this] {
+    write_made_run(temp_.path());
+    return read_run(temp_.path());
+  }();
+  RunCloud cloud_ = read_run_cloud(record_);
+};
+
+TEST_F(SeenPointsOfRun, ViewsPointsComeFromTheViewsAndCoveredProfilePointsGo) {
+  cloud_.points_world_m = {{0, 0, 1}, {3, 0, 1}, {0.05F, 0, 1}, {1, 1, 1}, {0, 0, 2}, {1, 1, 2}};
+  ASSERT_EQ(seen().points_world_m.size(), 5U);  // the first lies within a leaf of the third
+  EXPECT_EQ(seen().points_world_m[0], cloud_.points_world_m[1]);
+  EXPECT_EQ(seen().sensors_world_m[0], Vec3f(4, -4, 1));  // nearest pose of the profile
   for (std::size_t i = 1; i < 5; ++i) {
     const std::size_t view = i == 1 ? 0 : (i == 4 ? 2 : 1);
-    const Vec3f at_m = record.views[view].decision.view.p_world_m.cast<float>();
-    EXPECT_LT((seen.sensors_world_m[i] - at_m).norm(), 0.5F) << i;
+    EXPECT_LT((seen().sensors_world_m[i] - at_view(view)).norm(), 0.5F) << i;
   }
 }
 
-TEST(SeenPoints, WhatAFlyingCameraSawCameFromTheNearestPoseOfItsLeg) {
-  TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
-  RunCloud cloud = read_run_cloud(record);
-  cloud.points_world_m = {{0, 0, 1}, {1, 0, 1}, {-2, 4, 2}, {-4, 2, 2.1F}, {-3, -4, 3}, {2, 2, 2}};
+TEST_F(SeenPointsOfRun, WhatAFlyingCameraSawCameFromTheNearestPoseOfItsLeg) {
+  cloud_.points_world_m = {{0, 0, 1}, {1, 0, 1}, {-2, 4, 2}, {-4, 2, 2.1F}, {-3, -4, 3}, {2, 2, 2}};
   const auto sensor = [&](std::size_t point) {
-    const SeenPoints seen = seen_points(record, cloud, 2);
-    return seen.sensors_world_m.at(point - cloud.points_world_m.size() +
-                                   seen.points_world_m.size());
-  };
-  const auto at_view = [&](std::size_t view) {
-    return Vec3f(record.views[view].decision.view.p_world_m.cast<float>());
+    const SeenPoints all = seen();
+    return all.sensors_world_m.at(point + all.points_world_m.size() - cloud_.points_world_m.size());
   };
   EXPECT_LT((sensor(4) - at_view(1)).norm(), 0.5F);
-  record.scenario.cameras[0].rate_hz = 10.0;
+  record_.scenario.cameras[0].rate_hz = 10.0;
   EXPECT_EQ(sensor(4), Vec3f(-4, -4, 3));  // at 4 s, on the leg from 3 s to there
   EXPECT_EQ(sensor(2), Vec3f(-4, 4, 2));   // at 3 s, where the first leg ends
 }
 
-TEST(SeenPoints, WhatLiesBehindAPoseHidesNothingFromIt) {
-  TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
-  RunCloud cloud = read_run_cloud(record);
+TEST_F(SeenPointsOfRun, WhatLiesBehindAPoseHidesNothingFromIt) {
   // the first point was seen on the profile, 1 m away; another one lies 2 m beyond that pose
-  cloud.points_world_m = {{0, -3, 1}, {0, -6, 1}};
-  cloud.profile_points = 2;
-  cloud.view_points = {2, 2, 2};
-  record.path = {made_sample(0, {0, -4, 1}), made_sample(1, {0, 1.5, 1})};
-  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, -4, 1));
-  cloud.points_world_m[1] = {0, -3.5F, 1};  // between them it does
-  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m[0], Vec3f(0, 1.5F, 1));
+  cloud_.points_world_m = {{0, -3, 1}, {0, -6, 1}};
+  cloud_.profile_points = 2;
+  cloud_.view_points = {2, 2, 2};
+  record_.path = {made_sample(0, {0, -4, 1}), made_sample(1, {0, 1.5, 1})};
+  EXPECT_EQ(seen().sensors_world_m[0], Vec3f(0, -4, 1));
+  cloud_.points_world_m[1] = {0, -3.5F, 1};  // between them it does
+  EXPECT_EQ(seen().sensors_world_m[0], Vec3f(0, 1.5F, 1));
 }
 
-TEST(SeenPoints, WhatCameAfterTheLastViewIsSeenFromThere) {
-  TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
-  RunCloud cloud = read_run_cloud(record);
-  record.path.push_back(made_sample(6, {4, 4, 4}));
-  cloud.points_world_m.emplace_back(3.0F, 3.0F, 3.0F);
-  EXPECT_EQ(seen_points(record, cloud, 1).sensors_world_m.back(), Vec3f(4, 4, 4));
-  record.views.clear();  // it ended on its way to the first view
-  cloud.view_points.clear();
-  record.profile_end_s = 1.0;
-  const SeenPoints seen = seen_points(record, cloud, 1);
-  EXPECT_EQ(seen.sensors_world_m.size(), seen.points_world_m.size());
-  EXPECT_EQ(seen.sensors_world_m.back(), Vec3f(4, 4, 4));
+TEST_F(SeenPointsOfRun, WhatCameAfterTheLastViewIsSeenFromThere) {
+  record_.path.push_back(made_sample(6, {4, 4, 4}));
+  cloud_.points_world_m.emplace_back(3.0F, 3.0F, 3.0F);
+  EXPECT_EQ(seen().sensors_world_m.back(), Vec3f(4, 4, 4));
+  record_.views.clear();  // it ended on its way to the first view
+  cloud_.view_points.clear();
+  record_.profile_end_s = 1.0;
+  EXPECT_EQ(seen().sensors_world_m.size(), seen().points_world_m.size());
+  EXPECT_EQ(seen().sensors_world_m.back(), Vec3f(4, 4, 4));
 }
 
 TEST(SurfaceScore, TheTrueSurfaceIsPerfectAndHalfOfItHasHalfTheRecall) {
