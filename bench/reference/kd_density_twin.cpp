@@ -27,26 +27,6 @@ using DynamicTree =
     nanoflann::KDTreeSingleIndexDynamicAdaptor<nanoflann::L2_Simple_Adaptor<float, GrowingPoints>,
                                                GrowingPoints, 3>;
 
-/// Calls `found` with each point within the radius, border included.
-template <typename Found>
-class WithinRadius {
- public:
-  using DistanceType = float;       // nanoflann asks for
-  using IndexType = std::uint32_t;  // these names
-  WithinRadius(float radius2_m2, Found& found) : radius2_m2_(radius2_m2), found_(found) {}
-  bool addPoint(float distance2_m2, std::uint32_t point) {
-    if (distance2_m2 <= radius2_m2_) found_(point);
-    return true;  // go on
-  }
-  // a little more: nanoflann leaves out the border, and rounds where it cuts off branches
-  float worstDist() const { return radius2_m2_ * 1.00001F; }
-  bool full() const { return true; }
-
- private:
-  float radius2_m2_;
-  Found& found_;
-};
-
 struct LeafSum {
   Vec3 sum_m = Vec3::Zero();
   double count = 0.0;
@@ -98,13 +78,15 @@ struct KdDensityTwin::State {
       voxel_of.push_back(voxels.index_of(voxels.key_of(points.points_m[i])));
     }
     for (std::size_t i = first; i < end; ++i) {
+      // a little more: nanoflann leaves out the border, and rounds where it cuts off branches
+      nanoflann::RadiusResultSet<float, std::uint32_t> set(radius2_m2 * 1.00001F, found);
+      tree.findNeighbors(set, points.points_m[i].data(), nanoflann::SearchParams());
       std::uint64_t near = 0;
-      const auto found = [&](std::uint32_t point) {
+      for (const auto& [point, distance2_m2] : found) {
+        if (distance2_m2 > radius2_m2) continue;
         ++near;
         if (point < first) ++neighbours[voxel_of[point]];
-      };
-      WithinRadius set(radius2_m2, found);
-      tree.findNeighbors(set, points.points_m[i].data(), nanoflann::SearchParams());
+      }
       ++voxel_points[voxel_of[i]];
       neighbours[voxel_of[i]] += near;
     }
@@ -116,9 +98,10 @@ struct KdDensityTwin::State {
   GrowingPoints points;
   DynamicTree tree{3, points, nanoflann::KDTreeSingleIndexAdaptorParams(16)};
   std::unordered_set<std::uint64_t> taken;
-  std::unordered_map<std::uint64_t, LeafSum> sums;  // of a batch
-  std::vector<std::uint64_t> order;                 // its new leaves
-  std::vector<VoxelIndex> voxel_of;                 // of each point
+  std::unordered_map<std::uint64_t, LeafSum> sums;     // of a batch
+  std::vector<std::uint64_t> order;                    // its new leaves
+  std::vector<VoxelIndex> voxel_of;                    // of each point
+  std::vector<std::pair<std::uint32_t, float>> found;  // of a search
   std::vector<std::uint32_t> voxel_points;
   std::vector<std::uint64_t> neighbours;
 };
