@@ -121,7 +121,10 @@ void fit(std::vector<AtlasPatch>& patches, std::size_t swatches, int max_side_px
     for (std::size_t i = 0; i < patches.size(); ++i) {
       const stbrp_rect& r = rectangles[i];
       Chart& chart = patches[i].chart;
-      std::tie(chart.x, chart.y, chart.width, chart.height) = std::tie(r.x, r.y, r.w, r.h);
+      chart.x = r.x;
+      chart.y = r.y;
+      chart.width = r.w;
+      chart.height = r.h;
       layout.height = std::max(layout.height, r.y + r.h);
     }
     if (layout.height + swatches_height_px(swatches, *width) <= max_side_px) return;
