@@ -106,7 +106,7 @@ TEST(Texture, TheNearerAndTheMoreFrontalPictureServesAFace) {
   EXPECT_EQ(inner({view_from(-1.5F, 2.0F), view_from(0.0F, 2.5F)}), 1);
 }
 
-/// Of pictures that are about as good, each shows a third or the whole of the sheet.
+/// Of pictures that are about as good, two show a part of the sheet and one shows all of it.
 TEST(Texture, ThePictureThatShowsTheMostTakesItAll) {
   const TriangleMesh mesh = sheet();
   const auto chosen =
