@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/limits/ceiling.hpp"
+#include "bench/limits/oracle.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
