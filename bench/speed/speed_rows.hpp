@@ -35,7 +35,7 @@ bool is_met(const SpeedRow& row);
 /// the AVX2 and the baseline level. Ours is everything from the depths to the updated grid; the
 /// reference is plain insertPointCloud with the cloud ready, and the competent way OctoMap's own
 /// faster one: one ray a voxel that was hit (discretize, hence another map:
-/// frame_insertion_test.cpp says which) and inner nodes left alone (lazy_eval). Identical: every
+/// twins_test.cpp says which) and inner nodes left alone (lazy_eval). Identical: every
 /// voxel's log-odds, bit for bit, after all frames, against OctoMap's rule ray by ray, and against
 /// insertPointCloud itself on the same frames with each pixel without a return made a hit at
 /// maximum range. Takes some 10 s.
