@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tools/render/frame_block.hpp"
+#include "tools/render/geometry.hpp"
 
 namespace gnbv {
 

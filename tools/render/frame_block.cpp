@@ -1,9 +1,9 @@
-#include "tools/render/frame_block.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "tools/render/geometry.hpp"
 
 namespace gnbv {
 namespace {

@@ -133,8 +133,7 @@ Picture draw_plan(RunSource& run, const PictureOptions& options, const RenderVie
               .thickness = 0.9},
              scene);
   const Vec3& here_m = record.views[iteration].decision.view.p_world_m;
-  scene.balls.push_back(
-      {here_m.cast<float>(), static_cast<float>(6.0 * unit_m), looks::kHull.rgb()});
+  scene.add_ball(here_m, 6.0 * unit_m, looks::kHull.rgb());
   add_tour(record, here_m, standing.views(), options.every, unit_m, scene);
   picture.detail = plan_detail(record, standing, iteration);
   picture.legend = {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tools/render/panel_layout.hpp"
+#include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
@@ -30,12 +30,8 @@ void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
   for (int i = 0; i < 8; ++i) {
     for (const int bit : {1, 2, 4}) {
       if ((i & bit) != 0) continue;
-      const auto corner = [&](int k) {
-        return Vec3f(box_m.corner(static_cast<Box3::CornerType>(k)).cast<float>());
-      };
-      scene.tubes.push_back({{corner(i), corner(i | bit)},
-                             {looks::kWorkspace.rgb()},
-                             static_cast<float>(1.0 * unit_m)});
+      const auto corner = [&](int k) { return box_m.corner(static_cast<Box3::CornerType>(k)); };
+      scene.add_line(corner(i), corner(i | bit), unit_m, looks::kWorkspace.rgb());
     }
   }
 }
@@ -57,8 +53,7 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
   }
   for (std::size_t i = 0; i < stage.waypoints_world_m.size(); ++i) {
     const Vec3& p_m = stage.waypoints_world_m[i];
-    scene.balls.push_back(
-        {p_m.cast<float>(), static_cast<float>(4.5 * unit_m), looks::kProfile.rgb()});
+    scene.add_ball(p_m, 4.5 * unit_m, looks::kProfile.rgb());
     panel.labels.push_back({p_m, fmt::format("{}", i + 1), looks::kProfile.rgb()});
   }
   panel.note = fmt::format("{}: {}", counted(stage.waypoints, "waypoint"),

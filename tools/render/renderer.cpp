@@ -13,7 +13,6 @@
 #include "sim/core/module.hpp"
 #include "tools/render/changed_area.hpp"
 #include "tools/render/gl_context.hpp"
-#include "tools/render/screen_shaders.hpp"
 #include "tools/render/shaders.hpp"
 
 namespace gnbv {

@@ -107,6 +107,19 @@ struct RenderScene {
   /// One of a series that shows no more than what lies in this box, as a film: light, haze and
   /// shadows stay the same throughout, and a renderer draws again only what has changed.
   std::optional<Box3> series_box_m = {};
+
+  void add_ball(const Vec3& centre_m, double radius_m, const Rgb& colour,
+                bool casts_shadow = false) {
+    balls.push_back({centre_m.cast<float>(), static_cast<float>(radius_m), colour, casts_shadow});
+  }
+  /// A tube of one piece.
+  void add_line(const Vec3& from_m, const Vec3& to_m, double radius_m, const Rgb& colour,
+                bool casts_shadow = false) {
+    tubes.push_back({{from_m.cast<float>(), to_m.cast<float>()},
+                     {colour},
+                     static_cast<float>(radius_m),
+                     casts_shadow});
+  }
 };
 
 /// What one colour, or one run of colours, means.

@@ -116,7 +116,9 @@ TEST(Loft, RefusesRingsOfDifferentSizes) {
 TEST(Append, KeepsEveryPart) {
   TriangleMesh mesh;
   append(mesh, sphere(1.0, 8));
-  append(mesh, translated(sphere(0.5, 6), {4.0, 0.0, 0.0}));
+  Part beside = sphere(0.5, 6);
+  for (Vec3& p : beside.points_m) p.x() += 4.0;
+  append(mesh, beside);
   EXPECT_EQ(connected_parts(mesh.faces, mesh.vertices_m.size()).size(), 2U);
   EXPECT_EQ(open_edges(mesh.faces), 0U);
   EXPECT_EQ(mesh.face_material.size(), mesh.faces.size());
