@@ -30,6 +30,11 @@ std::vector<DrawDot> dots_in_picture(std::span<const DrawDot> dots, const FrameB
 std::vector<DrawDot> dots_in_shadow_map(std::span<const DrawDot> dots, const FrameBlock& frame,
                                         const PixelBox& box_px);
 
+/// All of a picture of that size.
+inline PixelBox whole_px(int width_px, int height_px) {
+  return {Eigen::Vector2i(0, 0), Eigen::Vector2i(width_px - 1, height_px - 1)};
+}
+
 /// The box with so many pixels more on each side, but none outside the picture.
 PixelBox widened(const PixelBox& box_px, int by_px, int width_px, int height_px);
 

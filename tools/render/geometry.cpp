@@ -176,12 +176,7 @@ DrawLists make_draw_lists(const RenderScene& scene) {
   for (const TubeItem& item : scene.tubes) add_tube(item, out);
   for (const FrustumItem& item : scene.frusta) add_frustum(item, out);
   for (const BallItem& item : scene.balls) add_ball(item, out);
-  for (const bool casts_shadow : {true, false}) {
-    for (const DotsItem& item : scene.dots) {
-      if (item.casts_shadow == casts_shadow) add_dots(item, out);
-    }
-    if (casts_shadow) out.casting_dots = out.dots.size();
-  }
+  for (const DotsItem& item : scene.dots) add_dots(item, out);
   for (const DrawVertex& vertex : out.vertices) out.bounds_m.extend(vertex.p_world_m);
   for (const DrawBall& ball : out.balls) {
     out.bounds_m.extend(Vec3f(ball.p_world_m.array() - ball.radius_m));

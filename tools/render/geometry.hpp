@@ -40,8 +40,7 @@ struct DrawLists {
   std::vector<std::uint32_t> casting, plain, ghost, translucent;
   std::vector<DrawBall> balls;  // those that cast shadows first
   std::size_t casting_balls = 0;
-  std::vector<DrawDot> dots;  // those that cast shadows first
-  std::size_t casting_dots = 0;
+  std::vector<DrawDot> dots;
   Eigen::AlignedBox3f bounds_m;  // of all of it
 };
 

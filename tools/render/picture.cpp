@@ -26,10 +26,8 @@ void frame_structure_alone(RunSource& run, const PictureOptions&,
 void frame_map(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   const Vec3 beside_m = Vec3::Constant(run.record().scenario.planner.map.resolution_m);
   for (const Vec3f& v : run.world().structure.vertices_m) {
-    const Box3 reach_m(v.cast<double>() - beside_m, v.cast<double>() + beside_m);
-    for (int i = 0; i < 8; ++i) {
-      points_world_m.push_back(reach_m.corner(static_cast<Box3::CornerType>(i)));
-    }
+    const auto reach = corners_m(Box3(v.cast<double>() - beside_m, v.cast<double>() + beside_m));
+    points_world_m.insert(points_world_m.end(), reach.begin(), reach.end());
   }
 }
 

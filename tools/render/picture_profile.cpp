@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
@@ -14,24 +15,21 @@ namespace {
 
 void frame_profile(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
-  const Box3& box_m = run.record().scenario.workspace_m;
-  for (int i = 0; i < 8; ++i) {
-    points_world_m.push_back(box_m.corner(static_cast<Box3::CornerType>(i)));
-  }
+  const std::array<Vec3, 8> corners = corners_m(run.record().scenario.workspace_m);
+  points_world_m.insert(points_world_m.end(), corners.begin(), corners.end());
   const double end_s = run.record().profile_end_s.value_or(0.0);
   for (const TrajectorySample& sample : run.record().path) {
     if (sample.time_s <= end_s) points_world_m.push_back(sample.T_world_body.translation());
   }
 }
 
-/// The twelve edges of the box: corner i lies at the upper end along x, y, z where its bit 0, 1, 2
-/// is set.
+/// The twelve edges of the box.
 void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
-  for (int i = 0; i < 8; ++i) {
-    for (const int bit : {1, 2, 4}) {
+  const std::array<Vec3, 8> corners = corners_m(box_m);
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (const std::size_t bit : {1U, 2U, 4U}) {
       if ((i & bit) != 0) continue;
-      const auto corner = [&](int k) { return box_m.corner(static_cast<Box3::CornerType>(k)); };
-      scene.add_line(corner(i), corner(i | bit), unit_m, looks::kWorkspace.rgb());
+      scene.add_line(corners[i], corners[i | bit], unit_m, looks::kWorkspace.rgb());
     }
   }
 }

@@ -43,13 +43,13 @@ struct BallItem {
   bool casts_shadow = false;
 };
 
-/// A point cloud as round dots: cheaper than balls by far, for millions of points.
+/// A point cloud as round dots: cheaper than balls by far, for millions of points. They cast
+/// shadows.
 struct DotsItem {
   std::vector<Vec3f> points_m = {};
   std::vector<Vec3f> normals = {};  // (n), unit, either side; empty: lit from everywhere
   std::vector<Rgb> colours = {};    // (n), or one for all
   float radius_m = 0.02F;
-  bool casts_shadow = true;
 };
 
 /// The pyramid that a camera sees, out to `length_m` along its axis.
