@@ -1,7 +1,7 @@
-#include "tools/render/changed_area.hpp"
-
 #include <algorithm>
 #include <cstring>
+
+#include "tools/render/geometry.hpp"
 
 namespace gnbv {
 namespace {

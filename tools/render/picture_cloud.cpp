@@ -8,6 +8,7 @@
 #include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,6 +9,7 @@
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {

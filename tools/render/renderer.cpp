@@ -11,7 +11,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/module.hpp"
-#include "tools/render/changed_area.hpp"
+#include "tools/render/geometry.hpp"
 #include "tools/render/gl_context.hpp"
 #include "tools/render/shaders.hpp"
 

@@ -11,8 +11,8 @@
 #include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
-#include "tools/scene/point_normals.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {

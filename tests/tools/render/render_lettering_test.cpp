@@ -11,7 +11,6 @@
 #include "sim/core/file.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tools/render/caption.hpp"
-#include "tools/render/lettering.hpp"
 
 namespace gnbv {
 namespace {

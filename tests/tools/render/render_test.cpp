@@ -86,29 +86,35 @@ TEST(Render, NearerHidesFartherInAnyOrder) {
   EXPECT_GT(excess(render(scene, view), 32, 32, 0), 60);
 }
 
-TEST(Render, BallsAppearWhereTheProjectionSays) {
+TEST(Render, BallsAndDotsAppearWhereTheProjectionSays) {
   RenderView view = view_from({-7.0, -6.0, 5.0}, {0.3, 0.1, 0.2}, 321, 243);
   Renderer renderer;
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(-1, 1, -1),
                         Vec3(0.7, -1.1, 0.4)}) {
-    RenderScene scene;
-    scene.balls.push_back({p.cast<float>(), 0.08F, kRed, false});
-    const Image image = renderer.render(scene, view);
-    double weight = 0.0, u = 0.0, v = 0.0;
-    for (int y = 0; y < image.height_px; ++y) {
-      for (int x = 0; x < image.width_px; ++x) {
-        const double w = std::max(0, excess(image, x, y, 0) - 10);
-        weight += w;
-        u += w * (x + 0.5);
-        v += w * (y + 0.5);
+    for (const bool is_dot : {false, true}) {
+      RenderScene scene;
+      if (is_dot) {
+        scene.dots = {{.points_m = {p.cast<float>()}, .colours = {kRed}, .radius_m = 0.08F}};
+      } else {
+        scene.add_ball(p, 0.08, kRed);
       }
+      const Image image = renderer.render(scene, view);
+      double weight = 0.0, u = 0.0, v = 0.0;
+      for (int y = 0; y < image.height_px; ++y) {
+        for (int x = 0; x < image.width_px; ++x) {
+          const double w = std::max(0, excess(image, x, y, 0) - 10);
+          weight += w;
+          u += w * (x + 0.5);
+          v += w * (y + 0.5);
+        }
+      }
+      ASSERT_GT(weight, 500.0);
+      const auto expected = project(view, p);
+      ASSERT_TRUE(expected.has_value());
+      // shading is uneven across a ball of radius 3.4 px: half a pixel for its centre of colour
+      EXPECT_NEAR(u / weight, expected->x(), 0.5);
+      EXPECT_NEAR(v / weight, expected->y(), 0.5);
     }
-    ASSERT_GT(weight, 500.0);
-    const auto expected = project(view, p);
-    ASSERT_TRUE(expected.has_value());
-    // shading is uneven across a ball of radius 3.4 px: half a pixel for its centre of colour
-    EXPECT_NEAR(u / weight, expected->x(), 0.5);
-    EXPECT_NEAR(v / weight, expected->y(), 0.5);
   }
 }
 
