@@ -71,11 +71,12 @@ Picture draw_profile(RunSource& run, const PictureOptions& options, const Render
   picture.detail =
       fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
                   run.record().profile_end_s.value_or(0.0));
-  picture.legend = {entry(looks::kProfile, LegendItem::Mark::line),
-                    entry(looks::kWorkspace, LegendItem::Mark::line), entry(looks::kStructure),
-                    entry(looks::kSeen, LegendItem::Mark::dot)};
-  picture.legend.front().label += " from S, waypoints numbered";
-  picture.legend.back().label = fmt::format("LIDAR points, thinned to one in {} m", leaf_m);
+  picture.legend = {entry(looks::kProfile, LegendItem::Mark::line, " from S, waypoints numbered"),
+                    entry(looks::kWorkspace, LegendItem::Mark::line),
+                    entry(looks::kStructure),
+                    {fmt::format("LIDAR points, thinned to one in {} m", leaf_m),
+                     {looks::kSeen.rgb()},
+                     LegendItem::Mark::dot}};
   return picture;
 }
 

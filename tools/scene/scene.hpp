@@ -135,9 +135,16 @@ struct LegendItem {
   bool operator==(const LegendItem&) const = default;
 };
 
-/// The entry of a thing, under its own words.
-inline LegendItem entry(const Look& look, LegendItem::Mark mark = LegendItem::Mark::square) {
-  return {std::string(look.words), {look.rgb()}, mark};
+/// The entry of a thing, under its own words and perhaps more.
+inline LegendItem entry(const Look& look, LegendItem::Mark mark = LegendItem::Mark::square,
+                        const std::string& more = "") {
+  return {std::string(look.words) + more, {look.rgb()}, mark};
+}
+
+/// What colours mean from their low end to their high one.
+inline LegendItem bar(const std::vector<Rgb>& colours, const std::string& low,
+                      const std::string& high, const std::string& middle = "") {
+  return {.label = high, .colours = colours, .label_before = low, .label_middle = middle};
 }
 
 /// Words beside a place in the world; or on it, white on a badge of a colour, which is left out
