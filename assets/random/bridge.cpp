@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/random/kinds.hpp"
-#include "assets/random/lattice.hpp"
-#include "assets/random/solids.hpp"
+#include "assets/random/parts.hpp"
 
 namespace gnbv::random_parts {
 namespace {
@@ -22,61 +20,57 @@ Deck draw_deck(Rng& draws, double size_m) {
 }
 
 /// Roadway, kerbs, railings, and the abutments that its ends rest on.
-std::vector<Part> roadway(const Deck& d) {
+Parts roadway(const Deck& d) {
   const double x_m = d.half_m(), y_m = d.side_m(), thickness_m = 0.18 + 0.006 * d.length_m;
-  std::vector<Part> parts = {
-      block({-x_m, x_m, -y_m, y_m, d.z_m - thickness_m, d.z_m}, kConcrete),
-      block({-x_m + 0.04, x_m - 0.03, -0.7 * y_m, 0.7 * y_m, d.z_m - 0.05, d.z_m + 0.05},
-            kAsphalt)};
+  Parts parts = {pad({0.0, x_m, 0.0, y_m, d.z_m - thickness_m, d.z_m}, kConcrete),
+                 block({-x_m + 0.04, x_m - 0.03, -0.7 * y_m, 0.7 * y_m, d.z_m - 0.05, d.z_m + 0.05},
+                       kAsphalt)};
   const double rail_m = std::min(1.1, 0.4 * d.width_m);
   for (const double side : {-1.0, 1.0}) {
-    add(parts,
+    parts +=
         railing({{-x_m + 0.1, side * (y_m - 0.09), d.z_m}, {x_m - 0.1, side * (y_m - 0.09), d.z_m}},
-                rail_m, kPaintedSteel));
+                rail_m, kPaintedSteel);
     const double bank_m = 0.06 * d.length_m + 0.5, at_m = side * (x_m - 0.5 * bank_m);
     const Ring section = {{at_m - 0.62 * bank_m, -1.1 * y_m, 0.0},
                           {at_m + 0.6 * bank_m, -1.1 * y_m, 0.0},
                           {at_m + 0.43 * bank_m, -1.1 * y_m, d.z_m - thickness_m + 0.03},
                           {at_m - 0.41 * bank_m, -1.1 * y_m, d.z_m - thickness_m + 0.03}};
-    parts.push_back(prism(section, {0.0, 2.2 * y_m, 0.0}, uniform(kBrick)));
+    parts += prism(section, {0.0, 2.2 * y_m, 0.0}, uniform(kBrick));
   }
   return parts;
 }
 
-std::vector<Part> girder_bridge(Rng& draws, const Deck& d) {
-  std::vector<Part> parts = roadway(d);
+Parts girder_bridge(Rng& draws, const Deck& d) {
+  Parts parts = roadway(d);
   const int girders = draws.whole(2, 4), piers = draws.whole(1, 3);
   const double depth_m = d.length_m / (piers + 1) * draws.real(0.05, 0.08);
   const double under_m = d.z_m - 0.18 - 0.006 * d.length_m;
   for (int i = 0; i < girders; ++i) {
     const double y_m = d.width_m * 0.8 * ((i + 0.5) / girders - 0.5);
-    parts.push_back(block({-d.half_m() + 0.3, d.half_m() - 0.35, y_m - 0.05 * d.width_m,
-                           y_m + 0.05 * d.width_m, under_m - depth_m, under_m + 0.04},
-                          kPaintedSteel));
+    parts += block({-d.half_m() + 0.3, d.half_m() - 0.35, y_m - 0.05 * d.width_m,
+                    y_m + 0.05 * d.width_m, under_m - depth_m, under_m + 0.04},
+                   kPaintedSteel);
   }
   const bool is_wall = draws.chance(0.4);
   for (int i = 1; i <= piers; ++i) {
     const double x_m = d.length_m * (static_cast<double>(i) / (piers + 1) - 0.5);
     const double head_m = under_m - depth_m + 0.03, thick_m = 0.02 * d.length_m + 0.25;
-    parts.push_back(block({x_m - 0.6 * thick_m, x_m + 0.6 * thick_m, -0.9 * d.side_m(),
-                           0.9 * d.side_m(), head_m - thick_m, head_m},
-                          kConcrete));
+    parts += pad({x_m, 0.6 * thick_m, 0.0, 0.9 * d.side_m(), head_m - thick_m, head_m}, kConcrete);
     if (is_wall) {
-      parts.push_back(block({x_m - 0.4 * thick_m, x_m + 0.4 * thick_m, -0.7 * d.side_m(),
-                             0.7 * d.side_m(), 0.0, head_m - 0.9 * thick_m},
-                            kConcrete));
+      parts +=
+          pad({x_m, 0.4 * thick_m, 0.0, 0.7 * d.side_m(), 0.0, head_m - 0.9 * thick_m}, kConcrete);
       continue;
     }
     for (const double side : {-0.6, 0.6})
-      parts.push_back(drum({x_m, side * d.side_m(), 0.0}, 0.42 * thick_m, head_m - 0.9 * thick_m,
-                           14, kConcrete));
+      parts += drum({x_m, side * d.side_m(), 0.0}, 0.42 * thick_m, head_m - 0.9 * thick_m, 14,
+                    kConcrete);
   }
   return parts;
 }
 
 /// The roadway within two Warren trusses, tied above.
-std::vector<Part> truss_bridge(Rng& draws, const Deck& d) {
-  std::vector<Part> parts = roadway(d);
+Parts truss_bridge(Rng& draws, const Deck& d) {
+  Parts parts = roadway(d);
   const int bays = 2 * draws.whole(3, 6);
   const double height_m = std::max(0.7 * d.width_m, d.length_m * draws.real(0.1, 0.16));
   const double y_m = d.side_m() + 0.2 + 0.003 * d.length_m, bay_m = d.length_m / bays;
@@ -93,28 +87,28 @@ std::vector<Part> truss_bridge(Rng& draws, const Deck& d) {
       bottom.emplace_back(x_m, side == 0 ? -y_m : y_m, d.z_m - 0.25);
       top[side].emplace_back(x_m, side == 0 ? -y_m : y_m, d.z_m - 0.25 + rise_m);
     }
-    add(parts, ladder(bottom, top[side], bars));
+    parts += ladder(bottom, top[side], bars);
     for (const double end : {-1.0, 1.0}) {  // the slanting end posts, and the chord's last bay
       const Vec3 bearing(end * (d.half_m() - 0.1 * bay_m), bottom.front().y(), d.z_m - 0.27);
       const Vec3& head = end < 0.0 ? top[side].front() : top[side].back();
-      parts.push_back(beam(bearing, head, 1.02 * bars.chord_m, 0.98 * bars.chord_m, bars.paint));
-      parts.push_back(beam(bearing, end < 0.0 ? bottom.front() : bottom.back(), 0.95 * bars.chord_m,
-                           0.9 * bars.chord_m, bars.paint));
+      parts += beam(bearing, head, 1.02 * bars.chord_m, 0.98 * bars.chord_m, bars.paint);
+      parts += beam(bearing, end < 0.0 ? bottom.front() : bottom.back(), 0.95 * bars.chord_m,
+                    0.9 * bars.chord_m, bars.paint);
     }
   }
   for (std::size_t i = 0; i < top[0].size(); ++i)
-    parts.push_back(beam(top[0][i] + Vec3(0, 0, 0.02), top[1][i] + Vec3(0, 0, 0.02), bars.brace_m,
-                         bars.brace_m, bars.paint));
+    parts += beam(top[0][i] + Vec3(0, 0, 0.02), top[1][i] + Vec3(0, 0, 0.02), bars.brace_m,
+                  bars.brace_m, bars.paint);
   for (std::size_t i = 0; i + 1 < top[0].size(); ++i)
-    parts.push_back(beam(top[i % 2][i], top[1 - i % 2][i + 1], 0.8 * bars.brace_m,
-                         0.8 * bars.brace_m, bars.paint));
+    parts += beam(top[i % 2][i], top[1 - i % 2][i + 1], 0.8 * bars.brace_m, 0.8 * bars.brace_m,
+                  bars.paint);
   return parts;
 }
 
 /// The roadway hangs from two arches that its ends tie together.
-std::vector<Part> arch_bridge(Rng& draws, const Deck& d) {
+Parts arch_bridge(Rng& draws, const Deck& d) {
   constexpr int kSteps = 14;
-  std::vector<Part> parts = roadway(d);
+  Parts parts = roadway(d);
   const double rise_m = d.length_m * draws.real(0.16, 0.24), rib_m = 0.2 + 0.01 * d.length_m;
   const double y_m = d.side_m() + 0.6 * rib_m, tilt = draws.real(0.0, 0.2);
   const auto on_arch = [&](double along, double side) -> Vec3 {
@@ -123,26 +117,25 @@ std::vector<Part> arch_bridge(Rng& draws, const Deck& d) {
             d.z_m - 0.2 + up_m};
   };
   for (const double side : {-1.0, 1.0}) {
-    std::vector<Vec3> line;
-    for (int i = 0; i <= kSteps; ++i) line.push_back(on_arch(2.0 * i / kSteps - 1.0, side));
-    parts.push_back(bent_beam(line, rib_m, 1.3 * rib_m, kWhite));
+    const auto at = [&](int i) { return on_arch(2.0 * i / kSteps - 1.0, side); };
+    parts += bent_beam(stepped(kSteps, at), rib_m, 1.3 * rib_m, kWhite);
     for (int i = 2; i <= kSteps - 2; ++i) {
-      const Vec3 head = on_arch(2.0 * i / kSteps - 1.0, side);
-      parts.push_back(bent_pipe({{head.x(), side * (y_m - 0.3 * rib_m), d.z_m - 0.3}, head}, 0.05,
-                                6, kGalvanised));
+      const Vec3 head = at(i);
+      parts += bent_pipe({{head.x(), side * (y_m - 0.3 * rib_m), d.z_m - 0.3}, head}, 0.05, 6,
+                         kGalvanised);
     }
-    parts.push_back(beam(on_arch(-0.99, side) - Vec3(0, 0, 0.1),
-                         on_arch(0.99, side) - Vec3(0, 0, 0.1), 0.8 * rib_m, rib_m, kWhite));
+    parts += beam(on_arch(-0.99, side) - Vec3(0, 0, 0.1), on_arch(0.99, side) - Vec3(0, 0, 0.1),
+                  0.8 * rib_m, rib_m, kWhite);
   }
   for (int i = 5; i <= kSteps - 5; ++i)
-    parts.push_back(beam(on_arch(2.0 * i / kSteps - 1.0, -1.0),
-                         on_arch(2.0 * i / kSteps - 1.0, 1.0), 0.5 * rib_m, 0.5 * rib_m, kWhite));
+    parts += beam(on_arch(2.0 * i / kSteps - 1.0, -1.0), on_arch(2.0 * i / kSteps - 1.0, 1.0),
+                  0.5 * rib_m, 0.5 * rib_m, kWhite);
   return parts;
 }
 
 /// One or two towers of two legs each, and fans of cables.
-std::vector<Part> cable_bridge(Rng& draws, const Deck& d) {
-  std::vector<Part> parts = roadway(d);
+Parts cable_bridge(Rng& draws, const Deck& d) {
+  Parts parts = roadway(d);
   const bool has_two = draws.chance(0.5);
   const double height_m = d.length_m * (has_two ? draws.real(0.18, 0.25) : draws.real(0.3, 0.42));
   const int stays = draws.whole(4, 7);
@@ -151,39 +144,29 @@ std::vector<Part> cable_bridge(Rng& draws, const Deck& d) {
        has_two ? std::vector{-0.28, 0.28} : std::vector{draws.real(-0.15, 0.15)}) {
     const double x_m = at * d.length_m, top_m = d.z_m + height_m;
     for (const double side : {-1.0, 1.0}) {
-      parts.push_back(
-          post({x_m, side * 1.15 * y_m, 0.0}, {x_m, side * 0.8 * y_m, top_m}, leg_m, kConcrete));
+      parts +=
+          post({x_m, side * 1.15 * y_m, 0.0}, {x_m, side * 0.8 * y_m, top_m}, leg_m, kConcrete);
       for (const double way : {-1.0, 1.0})
         for (int i = 1; i <= stays; ++i) {
           const double end_m = way > 0.0 ? d.half_m() : -d.half_m();
           const double room_m = has_two && at * way < 0.0 ? -x_m : end_m - x_m;
           const Vec3 foot(x_m + 0.94 * room_m * i / stays, side * (d.side_m() - 0.12), d.z_m - 0.1);
           const Vec3 head(x_m, side * 0.82 * y_m, top_m - 0.06 * height_m * (stays + 1 - i));
-          parts.push_back(bent_pipe({foot, head}, 0.025 + 0.0006 * d.length_m, 6, kWhite));
+          parts += bent_pipe({foot, head}, 0.025 + 0.0006 * d.length_m, 6, kWhite);
         }
     }
     for (const double z_m : {d.z_m - 0.9 * leg_m, top_m - 0.3 * height_m})
-      parts.push_back(block({x_m - 0.4 * leg_m, x_m + 0.4 * leg_m, -1.1 * y_m, 1.1 * y_m,
-                             z_m - 0.5 * leg_m, z_m + 0.4 * leg_m},
-                            kConcrete));
+      parts +=
+          pad({x_m, 0.4 * leg_m, 0.0, 1.1 * y_m, z_m - 0.5 * leg_m, z_m + 0.4 * leg_m}, kConcrete);
   }
   return parts;
 }
 
 }  // namespace
 
-std::vector<Part> bridge(Rng& draws, double size_m) {
-  const Deck d = draw_deck(draws, size_m);
-  switch (draws.whole(0, 3)) {
-    case 0:
-      return girder_bridge(draws, d);
-    case 1:
-      return truss_bridge(draws, d);
-    case 2:
-      return arch_bridge(draws, d);
-    default:
-      return cable_bridge(draws, d);
-  }
+Parts bridge(Rng& draws, double size_m) {
+  return one_of(draws, draw_deck(draws, size_m),
+                {girder_bridge, truss_bridge, arch_bridge, cable_bridge});
 }
 
 }  // namespace gnbv::random_parts

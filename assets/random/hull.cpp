@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/random/kinds.hpp"
-#include "assets/random/lattice.hpp"
-#include "assets/random/solids.hpp"
+#include "assets/random/parts.hpp"
 
 namespace gnbv::random_parts {
 namespace {
@@ -63,8 +61,8 @@ Ring hull_section(const HullLines& h, double along) {
 
 Part hull_body(const HullLines& h) {
   constexpr int kStations = 22;
-  std::vector<Ring> rings;
-  for (int i = 0; i <= kStations; ++i) rings.push_back(hull_section(h, 2.0 * i / kStations - 1.0));
+  const auto rings =
+      stepped(kStations, [&](int i) { return hull_section(h, 2.0 * i / kStations - 1.0); });
   return loft(rings, {}, {}, [](std::size_t, std::size_t side) -> std::uint16_t {
     if (side == 7) return kWood;  // between the deck's edges
     const std::size_t strake = std::min(side, 14 - side);
@@ -73,44 +71,44 @@ Part hull_body(const HullLines& h) {
 }
 
 /// The blocks below the keel and shores against the sides.
-std::vector<Part> dock(const HullLines& h) {
-  std::vector<Part> parts;
+Parts dock(const HullLines& h) {
+  Parts parts;
   const int blocks = std::max(5, static_cast<int>(h.length_m / 2.5));
   const double w = 0.012 * h.length_m + 0.15;
   for (int i = 0; i < blocks; ++i) {
     const double x_m = h.length_m * (0.72 * (i + 0.5) / blocks - 0.29);
-    parts.push_back(block({x_m - w, x_m + w, -2.0 * w, 2.0 * w, 0.0, h.keel_m + 0.08}, kWood));
+    parts += pad({x_m, w, 0.0, 2.0 * w, 0.0, h.keel_m + 0.08}, kWood);
   }
   for (int i = 0; i < 4; ++i)
     for (const double side : {-1.0, 1.0}) {
       const double along = -0.4 + 0.25 * i, y_m = h.half_breadth_m(along);
-      parts.push_back(beam({h.x_m(along), side * (y_m + 0.45 * h.depth_m), 0.05},
-                           {h.x_m(along), side * 0.97 * y_m, h.keel_m + 0.55 * h.depth_m}, 1.1 * w,
-                           w, kWood));
+      parts +=
+          beam({h.x_m(along), side * (y_m + 0.45 * h.depth_m), 0.05},
+               {h.x_m(along), side * 0.97 * y_m, h.keel_m + 0.55 * h.depth_m}, 1.1 * w, w, kWood);
     }
   return parts;
 }
 
-std::vector<Part> screw_and_rudder(const HullLines& h) {
+Parts screw_and_rudder(const HullLines& h) {
   const double radius_m = 0.2 * h.depth_m, x_m = h.x_m(-0.9), z_m = h.keel_m + 0.26 * h.depth_m;
-  std::vector<Part> parts = {bent_pipe({{x_m - 0.12 * h.depth_m, 0, z_m}, {h.x_m(-0.6), 0, z_m}},
-                                       0.05 * h.depth_m, 8, kBronze),
-                             block({h.x_m(-0.995), x_m - 0.16 * h.depth_m, -0.03 * h.depth_m,
-                                    0.03 * h.depth_m, h.keel_m + 0.02, h.keel_m + 0.75 * h.depth_m},
-                                   kAntifouling)};
+  Parts parts = {bent_pipe({{x_m - 0.12 * h.depth_m, 0, z_m}, {h.x_m(-0.6), 0, z_m}},
+                           0.05 * h.depth_m, 8, kBronze),
+                 block({h.x_m(-0.995), x_m - 0.16 * h.depth_m, -0.03 * h.depth_m, 0.03 * h.depth_m,
+                        h.keel_m + 0.02, h.keel_m + 0.75 * h.depth_m},
+                       kAntifouling)};
   for (int i = 0; i < 4; ++i) {
     Isometry T_world_blade = Isometry::Identity();
     T_world_blade.translate(Vec3(x_m - 0.04 * h.depth_m, 0.0, z_m));
     T_world_blade.rotate(Eigen::AngleAxisd(0.5 * kPi * i + 0.3, Vec3::UnitX()));
     T_world_blade.rotate(Eigen::AngleAxisd(0.5, Vec3::UnitZ()));
-    parts.push_back(box(T_world_blade, {0.03 * h.depth_m, 0.5 * radius_m, radius_m}, kBronze));
+    parts += box(T_world_blade, {0.03 * h.depth_m, 0.5 * radius_m, radius_m}, kBronze);
   }
   return parts;
 }
 
 /// Decks stacked from `from` to `to` along the ship, a bridge on top, the funnel behind it.
-std::vector<Part> superstructure(Rng& draws, const HullLines& h, double from, double to) {
-  std::vector<Part> parts;
+Parts superstructure(Rng& draws, const HullLines& h, double from, double to) {
+  Parts parts;
   const int decks = std::clamp(static_cast<int>(h.length_m / 9.0) + draws.whole(0, 1), 1, 5);
   const double deck_m = std::clamp(0.28 * h.depth_m, 0.9, 2.6);
   double x0_m = h.x_m(from), x1_m = h.x_m(to), z_m = h.deck_m(0.5 * (from + to)) - 0.25;
@@ -118,35 +116,34 @@ std::vector<Part> superstructure(Rng& draws, const HullLines& h, double from, do
   const double width_m = x1_m - x0_m;
   for (int i = 0; i < decks; ++i) {
     const double top_m = z_m + deck_m + (i == 0 ? 0.25 : 0.03);
-    parts.push_back(block({x0_m, x1_m, -y_m, y_m, z_m, top_m}, kWhite));
-    parts.push_back(block({x0_m + 0.08 * width_m, x1_m + 0.04, -y_m - 0.03, y_m + 0.03,
-                           top_m - 0.55 * deck_m, top_m - 0.3 * deck_m},
-                          kGlass));
-    parts.push_back(block({x0_m - 0.15, x1_m + 0.12, -1.05 * y_m - 0.06, 1.05 * y_m + 0.06,
-                           top_m - 0.06, top_m + 0.05},
-                          kWhite));
+    parts += block({x0_m, x1_m, -y_m, y_m, z_m, top_m}, kWhite);
+    parts += block({x0_m + 0.08 * width_m, x1_m + 0.04, -y_m - 0.03, y_m + 0.03,
+                    top_m - 0.55 * deck_m, top_m - 0.3 * deck_m},
+                   kGlass);
+    parts += block({x0_m - 0.15, x1_m + 0.12, -1.05 * y_m - 0.06, 1.05 * y_m + 0.06, top_m - 0.06,
+                    top_m + 0.05},
+                   kWhite);
     z_m = top_m + 0.02;
     x0_m += 0.06 * width_m;
     x1_m -= 0.05 * width_m;
     y_m *= i + 2 == decks ? 1.0 : 0.93;
   }
   const double r = 0.16 * h.beam_m, funnel_m = x0_m + 1.3 * r;
-  parts.push_back(loft({square(funnel_m, 0, z_m - 0.1, 2.0 * r),
-                        square(funnel_m - 0.4 * r, 0, z_m + 3.0 * r, 1.6 * r),
-                        square(funnel_m - 0.4 * r, 0, z_m + 3.0 * r, 1.2 * r),
-                        square(funnel_m - 0.3 * r, 0, z_m + 2.0 * r, 1.2 * r)},
-                       {}, {}, uniform(kMachineYellow)));
+  parts += loft({square(funnel_m, 0, z_m - 0.1, 2.0 * r),
+                 square(funnel_m - 0.4 * r, 0, z_m + 3.0 * r, 1.6 * r),
+                 square(funnel_m - 0.4 * r, 0, z_m + 3.0 * r, 1.2 * r),
+                 square(funnel_m - 0.3 * r, 0, z_m + 2.0 * r, 1.2 * r)},
+                {}, {}, uniform(kMachineYellow));
   const double mast_m = x1_m - 0.25 * (x1_m - x0_m);
-  parts.push_back(
-      bent_pipe({{mast_m, 0, z_m - 0.1}, {mast_m, 0, z_m + 0.55 * h.beam_m}}, 0.09, 8, kWhite));
-  parts.push_back(beam({mast_m, -0.22 * h.beam_m, z_m + 0.4 * h.beam_m},
-                       {mast_m, 0.22 * h.beam_m, z_m + 0.4 * h.beam_m}, 0.1, 0.14, kWhite));
+  parts += bent_pipe({{mast_m, 0, z_m - 0.1}, {mast_m, 0, z_m + 0.55 * h.beam_m}}, 0.09, 8, kWhite);
+  parts += beam({mast_m, -0.22 * h.beam_m, z_m + 0.4 * h.beam_m},
+                {mast_m, 0.22 * h.beam_m, z_m + 0.4 * h.beam_m}, 0.1, 0.14, kWhite);
   return parts;
 }
 
 /// Hatches, containers and derricks on the deck from `from` to `to`.
-std::vector<Part> cargo(Rng& draws, const HullLines& h, double from, double to) {
-  std::vector<Part> parts;
+Parts cargo(Rng& draws, const HullLines& h, double from, double to) {
+  Parts parts;
   const int holds = draws.whole(1, 3);
   const bool has_containers = draws.chance(0.5);
   for (int i = 0; i < holds; ++i) {
@@ -154,53 +151,49 @@ std::vector<Part> cargo(Rng& draws, const HullLines& h, double from, double to) 
                  b = from + (to - from) * (i + 0.8) / holds;
     const double y_m = 0.62 * std::min(h.half_breadth_m(a), h.half_breadth_m(b));
     const double z_m = std::min(h.deck_m(a), h.deck_m(b)) - 0.4;
-    parts.push_back(block({h.x_m(a), h.x_m(b), -y_m, y_m, z_m, z_m + 0.95}, kPaintedSteel));
+    parts += block({h.x_m(a), h.x_m(b), -y_m, y_m, z_m, z_m + 0.95}, kPaintedSteel);
     if (has_containers)
       for (int k = 0; k < 3; ++k) {
         const double c0_m = -y_m + 2.0 * y_m * k / 3.0 + 0.03;
-        parts.push_back(block({h.x_m(a) + 0.1, h.x_m(b) - 0.1, c0_m, c0_m + 0.62 * y_m, z_m + 0.9,
-                               z_m + 0.9 + 0.35 * h.depth_m * draws.whole(1, 3)},
-                              k % 2 == 0 ? kContainerRed : kContainerBlue));
+        parts += block({h.x_m(a) + 0.1, h.x_m(b) - 0.1, c0_m, c0_m + 0.62 * y_m, z_m + 0.9,
+                        z_m + 0.9 + 0.35 * h.depth_m * draws.whole(1, 3)},
+                       k % 2 == 0 ? kContainerRed : kContainerBlue);
       }
     const double foot_m = h.x_m(b) + 0.05 * h.length_m / holds;
     const Vec3 head(foot_m, 0.0, z_m + 0.8 * h.beam_m);
-    parts.push_back(
-        bent_pipe({{foot_m, 0.0, z_m}, head}, 0.02 * h.beam_m + 0.05, 10, kMachineYellow));
+    parts += bent_pipe({{foot_m, 0.0, z_m}, head}, 0.02 * h.beam_m + 0.05, 10, kMachineYellow);
     const double tip_z_m = z_m + h.beam_m * draws.real(0.7, 1.0);
     const Vec3 tip(h.x_m(a), draws.real(-0.6, 0.6) * y_m, tip_z_m);
-    parts.push_back(
-        beam({foot_m - 0.1, 0.0, z_m + 0.5 * h.beam_m}, tip, 0.14, 0.18, kMachineYellow));
-    parts.push_back(bent_pipe({head - Vec3(0, 0, 0.1), tip}, 0.03, 5, kGalvanised));
+    parts += beam({foot_m - 0.1, 0.0, z_m + 0.5 * h.beam_m}, tip, 0.14, 0.18, kMachineYellow);
+    parts += bent_pipe({head - Vec3(0, 0, 0.1), tip}, 0.03, 5, kGalvanised);
   }
   return parts;
 }
 
-std::vector<Part> bulwark_rails(const HullLines& h) {
-  std::vector<Part> parts;
+Parts bulwark_rails(const HullLines& h) {
+  Parts parts;
   for (const double side : {-1.0, 1.0}) {
-    std::vector<Vec3> line;
-    for (int i = 0; i <= 8; ++i) {
+    const auto line = stepped(8, [&](int i) -> Vec3 {
       const double along = -0.95 + 1.7 * i / 8.0;
-      line.emplace_back(h.x_m(along), side * 0.96 * h.half_breadth_m(along),
-                        h.deck_m(along) - 0.02);
-    }
-    add(parts, railing(line, std::min(1.0, 0.3 * h.depth_m), kWhite));
+      return {h.x_m(along), side * 0.96 * h.half_breadth_m(along), h.deck_m(along) - 0.02};
+    });
+    parts += railing(line, std::min(1.0, 0.3 * h.depth_m), kWhite);
   }
   return parts;
 }
 
 }  // namespace
 
-std::vector<Part> hull(Rng& draws, double size_m) {
+Parts hull(Rng& draws, double size_m) {
   const HullLines h = draw_hull(draws, size_m);
-  std::vector<Part> parts = {hull_body(h)};
-  add(parts, dock(h));
-  add(parts, screw_and_rudder(h));
+  Parts parts = {hull_body(h)};
+  parts += dock(h);
+  parts += screw_and_rudder(h);
   const bool is_aft = draws.chance(0.7);
   const double from = is_aft ? -0.85 : -0.25, to = from + draws.real(0.25, 0.4);
-  add(parts, superstructure(draws, h, from, to));
-  add(parts, cargo(draws, h, to + 0.05, 0.62));
-  add(parts, bulwark_rails(h));
+  parts += superstructure(draws, h, from, to);
+  parts += cargo(draws, h, to + 0.05, 0.62);
+  parts += bulwark_rails(h);
   return parts;
 }
 

@@ -86,12 +86,11 @@ Part start_part(const std::vector<Ring>& rings) {
   return part;
 }
 
-void turn_over(Part& part) {
-  for (auto& face : part.faces) std::swap(face[1], face[2]);
-}
-
 Part facing_outwards(Part part) {
-  if (signed_volume_m3(part) < 0.0) turn_over(part);
+  const bool is_inside_out = signed_volume_m3(part) < 0.0;
+  for (auto& face : part.faces) {
+    if (is_inside_out) std::swap(face[1], face[2]);
+  }
   return part;
 }
 
@@ -124,15 +123,6 @@ Part loft(const std::vector<Ring>& rings, const Cap& start, const Cap& end,
   return facing_outwards(std::move(part));
 }
 
-Part loft_loop(const std::vector<Ring>& rings, const Painter& painter) {
-  GNBV_CHECK(rings.size() >= 3, "a loop needs three rings");
-  Part part = start_part(rings);
-  const std::size_t sides = rings.front().size();
-  for (std::size_t ring = 0; ring < rings.size(); ++ring)
-    add_band(part, ring * sides, (ring + 1) % rings.size() * sides, sides, ring, painter);
-  return facing_outwards(std::move(part));
-}
-
 Part revolve(const std::vector<RevolvedPoint>& profile, std::size_t sides, const Painter& painter) {
   GNBV_CHECK(
       profile.size() >= 3 && profile.front().radius_m == 0.0 && profile.back().radius_m == 0.0,
@@ -157,12 +147,11 @@ Part revolve_loop(const std::vector<RevolvedPoint>& profile, std::size_t sides,
     GNBV_CHECK(at.radius_m > 0.0, "the profile touches the axis at y = {} m", at.y_m);
     rings.push_back(circle(at, sides));
   }
-  return loft_loop(rings, painter);
-}
-
-Part translated(Part part, const Vec3& offset_m) {
-  for (Vec3& p : part.points_m) p += offset_m;
-  return part;
+  GNBV_CHECK(rings.size() >= 3, "a loop needs three rings");
+  Part part = start_part(rings);
+  for (std::size_t ring = 0; ring < rings.size(); ++ring)
+    add_band(part, ring * sides, (ring + 1) % rings.size() * sides, sides, ring, painter);
+  return facing_outwards(std::move(part));
 }
 
 double signed_volume_m3(const Part& part) {

@@ -39,9 +39,6 @@ struct Cap {
 /// Skin over at least one ring, all of one size. Faces outwards whichever way the rings turn.
 Part loft(const std::vector<Ring>& rings, const Cap& start, const Cap& end, const Painter& painter);
 
-/// As loft(), but the last ring joins the first: a torus.
-Part loft_loop(const std::vector<Ring>& rings, const Painter& painter);
-
 struct RevolvedPoint {
   double y_m = 0.0, radius_m = 0.0;
 };
@@ -54,7 +51,6 @@ Part revolve(const std::vector<RevolvedPoint>& profile, std::size_t sides, const
 Part revolve_loop(const std::vector<RevolvedPoint>& profile, std::size_t sides,
                   const Painter& painter);
 
-Part translated(Part part, const Vec3& offset_m);
 double signed_volume_m3(const Part& part);
 
 void append(TriangleMesh& mesh, const Part& part);

@@ -3,33 +3,25 @@
 #include <array>
 #include <cmath>
 
-#include "assets/random/kinds.hpp"
-#include "assets/random/lattice.hpp"
-#include "assets/random/solids.hpp"
+#include "assets/random/parts.hpp"
 
 namespace gnbv::random_parts {
 namespace {
 
-Box3 box_around(const std::vector<Part>& parts) {
+Box3 box_around(const Parts& parts) {
   Box3 box_m;
   for (const Part& part : parts)
     for (const Vec3& p : part.points_m) box_m.extend(p);
   return box_m;
 }
 
-void shift(std::vector<Part>& parts, const Vec3& by_m) {
+void shift(Parts& parts, const Vec3& by_m) {
   for (Part& part : parts)
     for (Vec3& p : part.points_m) p += by_m;
 }
 
-std::vector<Part> some_structure(Rng& draws, double size_m) {
-  constexpr std::array kSome = {hall, tower, mast, truss, bridge, hull, crane};
-  const int kind = draws.whole(0, static_cast<int>(kSome.size()) - 1);
-  return kSome[static_cast<std::size_t>(kind)](draws, size_m);
-}
-
 /// One small thing on the ground: a crate, a container, a tank, pipes, a wall or a lamp.
-std::vector<Part> clutter(Rng& draws, const Vec3& at_m) {
+Parts clutter(Rng& draws, const Vec3& at_m) {
   const double yaw_rad = draws.real(0.0, kPi), size_m = draws.real(0.6, 2.2);
   const Isometry T_world_thing = T_world_body({at_m, yaw_rad});
   switch (draws.whole(0, 5)) {
@@ -41,14 +33,14 @@ std::vector<Part> clutter(Rng& draws, const Vec3& at_m) {
     case 2:
       return {drum(at_m, 0.5 * size_m, 1.3 * size_m, 16, kGalvanised)};
     case 3: {
-      std::vector<Part> pipes;
+      Parts pipes;
       const double r = 0.16 * size_m;
       for (const auto& [y, z] :
            {std::array{-2.05, 1.0}, std::array{0.0, 1.0}, std::array{2.05, 1.0},
             std::array{-1.03, 2.7}, std::array{1.03, 2.7}})
-        pipes.push_back(bent_pipe({T_world_thing * Vec3(-2.0 * size_m, y * r, z * r),
-                                   T_world_thing * Vec3(2.0 * size_m, y * r, z * r)},
-                                  r, 8, kConcrete));
+        pipes += bent_pipe({T_world_thing * Vec3(-2.0 * size_m, y * r, z * r),
+                            T_world_thing * Vec3(2.0 * size_m, y * r, z * r)},
+                           r, 8, kConcrete);
       return pipes;
     }
     case 4:
@@ -62,12 +54,13 @@ std::vector<Part> clutter(Rng& draws, const Vec3& at_m) {
 
 }  // namespace
 
-std::vector<Part> mixed(Rng& draws, double size_m) {
+Parts mixed(Rng& draws, double size_m) {
   const int count = draws.whole(2, 4);
-  std::vector<Part> site;
+  Parts site;
   double x_m = 0.0, row_m = 0.0, depth_m = 0.0;
   for (int i = 0; i < count; ++i) {
-    std::vector<Part> parts = some_structure(draws, size_m * draws.real(0.3, 0.55));
+    Parts parts = one_of(draws, size_m * draws.real(0.3, 0.55),
+                         {hall, tower, mast, truss, bridge, hull, crane});
     const Box3 box_m = box_around(parts);
     if (i == 2) {  // the second row
       row_m += depth_m;
@@ -77,14 +70,14 @@ std::vector<Part> mixed(Rng& draws, double size_m) {
     shift(parts, Vec3(x_m, row_m, 0.0) - Vec3(box_m.min().x(), box_m.min().y(), 0.0));
     x_m += box_m.sizes().x() + gap_m;
     depth_m = std::max(depth_m, box_m.sizes().y() + gap_m);
-    add(site, std::move(parts));
+    site += std::move(parts);
   }
   const Box3 site_m = box_around(site);
   const int things = draws.whole(4, 14);
   for (int i = 0; i < things; ++i) {
     const double across = draws.real(0.0, 1.0), along = draws.real(0.0, 1.0);
-    add(site, clutter(draws, {site_m.min().x() + along * site_m.sizes().x(),
-                              site_m.min().y() + across * site_m.sizes().y(), 0.0}));
+    site += clutter(draws, {site_m.min().x() + along * site_m.sizes().x(),
+                            site_m.min().y() + across * site_m.sizes().y(), 0.0});
   }
   return site;
 }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "assets/random/kinds.hpp"
-#include "assets/random/paints.hpp"
+#include "assets/random/parts.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -11,7 +10,7 @@ namespace {
 
 struct RandomKind {
   std::string_view name;
-  std::vector<Part> (*make)(Rng&, double size_m);
+  random_parts::Parts (*make)(Rng&, double size_m);
   double smallest_m, largest_m;  // extent along an axis
 };
 
@@ -28,7 +27,7 @@ constexpr std::array kKinds = {
 static_assert(std::ranges::equal(kKinds, kRandomKinds, {}, &RandomKind::name));
 
 /// About the z axis, on the ground, its largest extent `size_m`, turned by `yaw_rad`.
-void stand(std::vector<Part>& parts, double yaw_rad, double size_m) {
+void stand(random_parts::Parts& parts, double yaw_rad, double size_m) {
   const Eigen::AngleAxisd turn(yaw_rad, Vec3::UnitZ());
   Box3 box_m;
   for (Part& part : parts)
@@ -37,6 +36,20 @@ void stand(std::vector<Part>& parts, double yaw_rad, double size_m) {
   const Vec3 foot_m(box_m.center().x(), box_m.center().y(), box_m.min().z());
   for (Part& part : parts)
     for (Vec3& p : part.points_m) p = scale * (p - foot_m);
+}
+
+/// Those that no face has are left out.
+void keep_used_materials(TriangleMesh& mesh) {
+  std::vector<int> number(mesh.materials.size(), -1);
+  for (const std::uint16_t m : mesh.face_material) number[m] = 0;
+  std::vector<Material> kept;
+  for (std::size_t m = 0; m < number.size(); ++m) {
+    if (number[m] < 0) continue;
+    number[m] = static_cast<int>(kept.size());
+    kept.push_back(mesh.materials[m]);
+  }
+  for (std::uint16_t& m : mesh.face_material) m = static_cast<std::uint16_t>(number[m]);
+  mesh.materials = std::move(kept);
 }
 
 }  // namespace
@@ -52,12 +65,12 @@ TriangleMesh make_random_structure(std::uint64_t seed, std::string_view kind) {
   Rng draws(seed, Stream::random_structure, static_cast<int>(found - kKinds.begin()));
   const double size_m = draws.real(found->smallest_m, found->largest_m);
   const double yaw_rad = draws.real(0.0, 2.0 * kPi);
-  std::vector<Part> parts = found->make(draws, size_m);
+  random_parts::Parts parts = found->make(draws, size_m);
   stand(parts, yaw_rad, size_m);
   TriangleMesh mesh;
   mesh.materials = random_parts::materials();
   for (const Part& part : parts) append(mesh, part);
-  random_parts::keep_used_materials(mesh);
+  keep_used_materials(mesh);
   return mesh;
 }
 

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -44,20 +42,6 @@ inline std::vector<Faces> connected_parts(const Faces& faces, std::size_t vertic
   std::vector<Faces> parts;
   for (auto& entry : by_root) parts.push_back(std::move(entry.second));
   return parts;
-}
-
-/// 1 inside a closed part, 0 outside: the sum of the faces' solid angles over 4 pi
-/// (van Oosterom and Strackee 1983).
-inline double winding_number(const Part& part, const Vec3& p_m) {
-  double sum = 0.0;
-  for (const auto& f : part.faces) {
-    const Vec3 a = part.points_m[f[0]] - p_m, b = part.points_m[f[1]] - p_m,
-               c = part.points_m[f[2]] - p_m;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2.0 * std::atan2(a.dot(b.cross(c)),
-                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (4.0 * std::numbers::pi);
 }
 
 inline double area_m2(const Part& part) {

@@ -14,6 +14,7 @@ namespace {
 // all lengths here are in layout units
 constexpr double kBorder = kCaptionBorder;
 constexpr Rgb8 kPaleInk = {92, 100, 112};
+constexpr Rgb8 kWhite = {255, 255, 255};
 constexpr double kLetter = 10.0;
 constexpr double kRow = 22.0;
 constexpr double kBar = 120.0;
@@ -54,7 +55,7 @@ void draw_bar(Image& image, const LegendItem& item, double x, double y, double u
   const Rgb middle = ramp(item.colours, 0.5);
   const double luminance = 0.2126 * middle[0] + 0.7152 * middle[1] + 0.0722 * middle[2];
   constexpr double kPale = 0.35;
-  const Rgb8 ink = luminance > kPale ? kInk : Rgb8{255, 255, 255};
+  const Rgb8 ink = luminance > kPale ? kInk : kWhite;
   const double width = text_width_px(item.label_middle, kLetter * u);
   draw_text(image, item.label_middle, x + 0.5 * (whole - width), y + 5.0 * u, kLetter * u, ink);
 }
@@ -89,7 +90,7 @@ void draw_mark(Image& image, const LegendItem& item, double x, double y, double 
       break;
     case LegendItem::Mark::ring:
       draw_line(image, {middle, y}, {middle, y}, 11.0 * u, colour);
-      draw_line(image, {middle, y}, {middle, y}, 4.5 * u, {255, 255, 255});
+      draw_line(image, {middle, y}, {middle, y}, 4.5 * u, kWhite);
       break;
     case LegendItem::Mark::square:
       // white would not show on the paper
@@ -135,7 +136,7 @@ void draw_legend(Image& image, const Caption& caption, double u) {
   if (places.empty()) return;
   const double top = std::min<double>(image.height_px - caption.paper_px,
                                       places.front().y - (0.5 * kRow + kPaperBorder) * u);
-  draw_box(image, {0.0, top}, {1.0 * image.width_px, 1.0 * image.height_px}, {255, 255, 255}, 1.0);
+  draw_box(image, {0.0, top}, {1.0 * image.width_px, 1.0 * image.height_px}, kWhite, 1.0);
   for (const auto& [item, x_begin, y] : places) {
     double x = x_begin;
     if (!item->label_before.empty()) {
@@ -145,6 +146,39 @@ void draw_legend(Image& image, const Caption& caption, double u) {
     draw_text(image, item->label, x + (mark_width(*item) + 10.0) * u, y + 5.0 * u, kLetter * u,
               kInk);
   }
+}
+
+constexpr double kBadge = 17.0;
+
+using Place = std::array<double, 2>;  // px
+
+void draw_place_line(const PlaceLine& line, const RenderView& view, double u, Image& image) {
+  constexpr double kEdge = 1.2;
+  const std::optional<Vec3> from = project(view, line.from_world_m);
+  const std::optional<Vec3> to = project(view, line.to_world_m);
+  if (!from || !to) return;
+  for (const auto& [colour, more] : {std::pair{kWhite, 2.0 * kEdge}, {to_rgb8(line.colour), 0.0}}) {
+    draw_line(image, {from->x(), from->y()}, {to->x(), to->y()}, (line.width + more) * u, colour);
+  }
+}
+
+void draw_badge(const std::string& text, const Rgb8& badge, const Place& at, double u,
+                Image& image) {
+  const double width_px = text_width_px(text, kLetter * u);
+  const double half_px = std::max(0.0, 0.5 * width_px - 3.5 * u);
+  for (const auto& [colour, more] : {std::pair{kWhite, 3.0}, {badge, 0.0}}) {
+    draw_line(image, {at[0] - half_px, at[1]}, {at[0] + half_px, at[1]}, (kBadge + more) * u,
+              colour);
+  }
+  draw_text(image, text, at[0] - 0.5 * width_px, at[1] + 0.5 * kLetter * u, kLetter * u, kWhite);
+}
+
+void draw_words(const std::string& text, const Place& place, double u, Image& image) {
+  const double width_px = text_width_px(text, kLetter * u);
+  const double beside_px = 12.0 * u;
+  const bool has_room = place[0] + beside_px + width_px < image.width_px;
+  const double x = has_room ? place[0] + beside_px : place[0] - beside_px - width_px;
+  draw_on_paper(image, text, {x, x}, place[1] + 0.5 * kLetter * u, u);
 }
 
 }  // namespace
@@ -189,6 +223,27 @@ void draw_caption(Image& image, const Caption& caption) {
   draw_text(image, caption.title, kBorder * u, 36.0 * u, title_px, kInk);
   draw_text(image, caption.detail, kBorder * u, 60.0 * u, detail_px, kPaleInk);
   draw_legend(image, caption, u);
+}
+
+void draw_place_marks(const Panel& panel, const RenderView& view, double unit_px, bool has_words,
+                      Image& image) {
+  for (const PlaceLine& line : panel.lines) draw_place_line(line, view, unit_px, image);
+  if (!has_words) return;
+  std::vector<Place> taken;  // by badges
+  for (const PlaceLabel& label : panel.labels) {
+    const std::optional<Vec3> px = project(view, label.p_world_m);
+    if (!px) continue;
+    const Place place = {px->x(), px->y()};
+    const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const Place& other) {
+      return std::hypot(place[0] - other[0], place[1] - other[1]) < kBadge * unit_px;
+    });
+    if (!label.badge) {
+      draw_words(label.text, place, unit_px, image);
+    } else if (!is_taken) {
+      taken.push_back(place);
+      draw_badge(label.text, to_rgb8(*label.badge), place, unit_px, image);
+    }
+  }
 }
 
 }  // namespace gnbv

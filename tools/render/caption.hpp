@@ -1,14 +1,39 @@
-// Words on a picture: title, figures, legend and scale, and what lies over a panel's places. All
-// lengths are laid out in layout units.
+// Words and plain marks on a finished picture; of them its title, figures, legend and scale, and
+// what lies over a panel's places. The letters are those of the font file that the environment's
+// GNBV_FONT names, else of DejaVu Sans where systems have it; without one, what draws or measures
+// words throws BadInput.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "tools/render/lettering.hpp"
 #include "tools/scene/scene.hpp"
 
 namespace gnbv {
+
+Rgb8 to_rgb8(const Rgb& linear);
+
+/// A round-ended line between two points (px, 0, 0 is the top left corner), `width_px` wide,
+/// antialiased and clipped to the picture.
+void draw_line(Image& image, const std::array<double, 2>& from_px,
+               const std::array<double, 2>& to_px, double width_px, const Rgb8& colour);
+
+/// A rectangle between two corners (px), blended over the picture and clipped to it.
+void draw_box(Image& image, const std::array<double, 2>& from_px,
+              const std::array<double, 2>& to_px, const Rgb8& colour, double opacity);
+
+/// UTF-8, each code point its own letter; bytes that are none appear as the replacement character.
+/// `height_px` is that of a capital. Returns the x where the text ends.
+double draw_text(Image& image, std::string_view text, double x_px, double baseline_px,
+                 double height_px, const Rgb8& colour);
+
+/// Width of what draw_text() would draw.
+double text_width_px(std::string_view text, double height_px);
+
+/// `height_px`, or as much less as makes the text no wider than `width_px`.
+double fitting_height_px(std::string_view text, double height_px, double width_px);
 
 constexpr Rgb8 kInk = {38, 44, 54};
 

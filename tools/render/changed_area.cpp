@@ -1,7 +1,7 @@
-#include "tools/render/changed_area.hpp"
-
 #include <algorithm>
 #include <cstring>
+
+#include "tools/render/geometry.hpp"
 
 namespace gnbv {
 namespace {
@@ -92,11 +92,10 @@ PixelBox in_pixels(const Box2f& share, int width_px, int height_px, int more_px)
 }
 
 /// Those that may reach into the box of a picture of that size: seen by `share_from_world`, which
-/// leads to [0, 1], as points whose half side is `half_side` radii by their depth, or `least_px`.
+/// leads to [0, 1], as points whose half side is `half_side` radii by their depth, or half a pixel.
 std::vector<DrawDot> those_near(std::span<const DrawDot> dots,
                                 const Eigen::Matrix4f& share_from_world, float half_side,
-                                float least_px, const PixelBox& box_px, int width_px,
-                                int height_px) {
+                                const PixelBox& box_px, int width_px, int height_px) {
   constexpr float kRounding_px = 2.0F;
   std::vector<DrawDot> near;
   if (box_px.isEmpty()) return near;
@@ -108,7 +107,7 @@ std::vector<DrawDot> those_near(std::span<const DrawDot> dots,
     if (at.w() <= 1e-6F) return true;  // nobody knows where it lands
     const Eigen::Array2f middle_px = at.head<2>().array() / at.w() * size_px;
     const float reach_px =
-        std::max(least_px, half_side * dot.radius_m * size_px.y() / at.w()) + kRounding_px;
+        std::max(0.5F, half_side * dot.radius_m * size_px.y() / at.w()) + kRounding_px;
     return (middle_px + reach_px >= low_px).all() && (middle_px - reach_px <= high_px).all();
   });
   return near;
@@ -124,13 +123,10 @@ std::optional<ChangedArea> changed_area(const DrawLists& before, const DrawLists
   for (const auto list : {&DrawLists::plain, &DrawLists::ghost, &DrawLists::translucent}) {
     reach.add_changed(before, now, list, false);
   }
-  const auto add_split = [&](const auto& a, std::size_t casting_a, const auto& b,
-                             std::size_t casting_b) {
-    reach.add_changed(std::span(a).first(casting_a), std::span(b).first(casting_b), true);
-    reach.add_changed(std::span(a).subspan(casting_a), std::span(b).subspan(casting_b), false);
-  };
-  add_split(before.balls, before.casting_balls, now.balls, now.casting_balls);
-  add_split(before.dots, before.casting_dots, now.dots, now.casting_dots);
+  const std::span a(before.balls), b(now.balls);
+  reach.add_changed(a.first(before.casting_balls), b.first(now.casting_balls), true);
+  reach.add_changed(a.subspan(before.casting_balls), b.subspan(now.casting_balls), false);
+  reach.add_changed(std::span(before.dots), std::span(now.dots), true);
   if (reach.is_behind) return std::nullopt;
   constexpr int kSoft_px = 8;  // penumbra and the squares of points
   return ChangedArea{in_pixels(reach.picture, width_px, height_px, kSoft_px),
@@ -143,21 +139,20 @@ std::vector<DrawDot> dots_in_picture(std::span<const DrawDot> dots, const FrameB
   share_from_world.row(3) *= 2.0F;
   share_from_world.topRows<2>().rowwise() += 0.5F * frame.clip_from_world.row(3);
   // gl_PointSize of kDotVertex, of pixels half as large
-  return those_near(dots, share_from_world, 0.5F * frame.to_fill.w(), 0.5F, box_px, width_px,
-                    height_px);
+  return those_near(dots, share_from_world, 0.5F * frame.to_fill.w(), box_px, width_px, height_px);
 }
 
 std::vector<DrawDot> dots_in_shadow_map(std::span<const DrawDot> dots, const FrameBlock& frame,
                                         const PixelBox& box_px) {
   // gl_PointSize of kBallShadowVertex
-  return those_near(dots, frame.shadow_from_world, 1.0F / frame.camera_right.w(), 0.5F, box_px,
+  return those_near(dots, frame.shadow_from_world, 1.0F / frame.camera_right.w(), box_px,
                     kShadowSide_px, kShadowSide_px);
 }
 
 PixelBox widened(const PixelBox& box_px, int by_px, int width_px, int height_px) {
   if (box_px.isEmpty()) return {};
-  const PixelBox whole(Eigen::Vector2i(0, 0), Eigen::Vector2i(width_px - 1, height_px - 1));
-  return PixelBox(box_px.min().array() - by_px, box_px.max().array() + by_px).intersection(whole);
+  return PixelBox(box_px.min().array() - by_px, box_px.max().array() + by_px)
+      .intersection(whole_px(width_px, height_px));
 }
 
 }  // namespace gnbv

@@ -1,12 +1,8 @@
 #include "tools/render/film.hpp"
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <sstream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,15 +42,7 @@ std::vector<std::string> ffmpeg_command(const std::string& out, const std::strin
 }  // namespace
 
 bool has_ffmpeg() {
-  const char* const path = std::getenv("PATH");
-  std::string_view folders = path == nullptr ? "" : path;
-  while (!folders.empty()) {
-    const std::size_t end = std::min(folders.find(':'), folders.size());
-    const std::filesystem::path program = std::filesystem::path(folders.substr(0, end)) / "ffmpeg";
-    if (::access(program.c_str(), X_OK) == 0) return true;
-    folders.remove_prefix(std::min(end + 1, folders.size()));
-  }
-  return false;
+  return ChildProcess({"ffmpeg", "-version"}, {.out = ChildStream::nothing}).end().is_success();
 }
 
 bool is_film_ending(const std::string& ending) {
@@ -73,9 +61,10 @@ Film::Film(std::filesystem::path path, int width_px, int height_px, int images_p
   const std::string height = std::to_string(height_px);
   const std::string speed = std::to_string(images_per_s);
   if (is_by_ffmpeg_) {
-    need(has_ffmpeg(), "needs ffmpeg on the PATH, Debian package ffmpeg; an .apng does without");
     program_ = std::make_unique<ChildProcess>(
         ffmpeg_command(part_.string(), width + "x" + height, speed), kFed);
+    need(program_->start_error() == 0,
+         "needs ffmpeg on the PATH, Debian package ffmpeg; an .apng does without");
     return;
   }
   program_ = std::make_unique<ChildProcess>(

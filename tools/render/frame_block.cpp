@@ -1,9 +1,9 @@
-#include "tools/render/frame_block.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include "tools/render/geometry.hpp"
 
 namespace gnbv {
 namespace {
@@ -17,9 +17,7 @@ Eigen::Vector4f pack(const Vec3& v, double w) {
 Box3 caster_box(const RenderScene& scene, const DrawLists& lists, const Eigen::Matrix3d& R) {
   Box3 box;
   if (scene.series_box_m) {
-    for (int i = 0; i < 8; ++i) {
-      box.extend(R * scene.series_box_m->corner(static_cast<Box3::CornerType>(i)));
-    }
+    for (const Vec3& corner_m : corners_m(*scene.series_box_m)) box.extend(R * corner_m);
     return box;
   }
   for (const std::uint32_t i : lists.casting) {
@@ -30,9 +28,7 @@ Box3 caster_box(const RenderScene& scene, const DrawLists& lists, const Eigen::M
     box.extend(Vec3(c.array() - ball.radius_m));
     box.extend(Vec3(c.array() + ball.radius_m));
   }
-  for (std::size_t i = 0; i < lists.casting_dots; ++i) {
-    box.extend(R * lists.dots[i].p_world_m.cast<double>());
-  }
+  for (const DrawDot& dot : lists.dots) box.extend(R * dot.p_world_m.cast<double>());
   if (box.isEmpty()) box.extend(Vec3(Vec3::Zero()));
   return box;
 }
@@ -81,8 +77,7 @@ FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
   // wide enough for the scene and for the shadows on it
   const Box3 casting = caster_box(scene, lists, Eigen::Matrix3d::Identity());
   double ground_m = radius_m;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = casting.corner(static_cast<Box3::CornerType>(i));
+  for (const Vec3& p : corners_m(casting)) {
     // a light near the horizon throws shadows without end
     const double t = std::max(0.0, p.z() - ground.z_m) / std::max(0.3, to_light.z());
     ground_m = std::max(ground_m, (p - t * to_light - centre).head<2>().norm());

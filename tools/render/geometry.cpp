@@ -1,7 +1,7 @@
 #include "tools/render/geometry.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,31 +14,6 @@ constexpr std::uint32_t kTubeSides = 10;
 
 std::array<float, 4> rgba(const Rgb& colour, float opacity = 1.0F) {
   return {colour[0], colour[1], colour[2], opacity};
-}
-
-// Corners (3 * face + k) by the place where they stand, whichever vertex that is.
-struct Places {
-  std::vector<std::uint32_t> of_vertex;
-  std::vector<std::vector<std::uint32_t>> corners;
-};
-
-Places places_of(const TriangleMesh& mesh) {
-  const std::vector<Vec3f>& p_m = mesh.vertices_m;
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    return std::lexicographical_compare(p_m[a].begin(), p_m[a].end(), p_m[b].begin(), p_m[b].end());
-  };
-  std::vector<std::uint32_t> order(p_m.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), before);
-  Places places{std::vector<std::uint32_t>(p_m.size()), {}};
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || before(order[i - 1], order[i])) places.corners.emplace_back();
-    places.of_vertex[order[i]] = static_cast<std::uint32_t>(places.corners.size() - 1);
-  }
-  for (std::uint32_t corner = 0; corner < 3 * mesh.faces.size(); ++corner) {
-    places.corners[places.of_vertex[mesh.faces[corner / 3][corner % 3]]].push_back(corner);
-  }
-  return places;
 }
 
 void add_surface(const SurfaceItem& item, bool has_paint, DrawLists& out) {
@@ -169,12 +144,20 @@ std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, doubl
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) normals[f].fill(face_normals[f]);
     return normals;
   }
-  const Places places = places_of(mesh);
+  // corners (3 * face + k) by the place where they stand, whichever vertex that is
+  std::map<std::array<float, 3>, std::vector<std::uint32_t>> corners_at;
+  std::vector<std::vector<std::uint32_t>*> corners_beside;  // by vertex
+  for (const Vec3f& p_m : mesh.vertices_m) {
+    corners_beside.push_back(&corners_at[{p_m.x(), p_m.y(), p_m.z()}]);
+  }
+  for (std::uint32_t corner = 0; corner < 3 * mesh.faces.size(); ++corner) {
+    corners_beside[mesh.faces[corner / 3][corner % 3]]->push_back(corner);
+  }
   const auto cos_crease = static_cast<float>(std::cos(crease_rad));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3f sum = Vec3f::Zero();
-      for (const std::uint32_t corner : places.corners[places.of_vertex[mesh.faces[f][k]]]) {
+      for (const std::uint32_t corner : *corners_beside[mesh.faces[f][k]]) {
         const std::uint32_t face = corner / 3;
         if (face_normals[face].dot(face_normals[f]) < cos_crease) continue;
         sum += angles_rad[face][corner % 3] * face_normals[face];
@@ -193,12 +176,7 @@ DrawLists make_draw_lists(const RenderScene& scene) {
   for (const TubeItem& item : scene.tubes) add_tube(item, out);
   for (const FrustumItem& item : scene.frusta) add_frustum(item, out);
   for (const BallItem& item : scene.balls) add_ball(item, out);
-  for (const bool casts_shadow : {true, false}) {
-    for (const DotsItem& item : scene.dots) {
-      if (item.casts_shadow == casts_shadow) add_dots(item, out);
-    }
-    if (casts_shadow) out.casting_dots = out.dots.size();
-  }
+  for (const DotsItem& item : scene.dots) add_dots(item, out);
   for (const DrawVertex& vertex : out.vertices) out.bounds_m.extend(vertex.p_world_m);
   for (const DrawBall& ball : out.balls) {
     out.bounds_m.extend(Vec3f(ball.p_world_m.array() - ball.radius_m));

@@ -1,9 +1,12 @@
-// Scene items as triangles ready to be drawn; no GL here.
+// A scene as a renderer wants it: triangles ready to be drawn, and the numbers that all shaders of
+// a picture share; no GL here.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "tools/scene/scene.hpp"
@@ -39,8 +42,7 @@ struct DrawLists {
   std::vector<std::uint32_t> casting, plain, ghost, translucent;
   std::vector<DrawBall> balls;  // those that cast shadows first
   std::size_t casting_balls = 0;
-  std::vector<DrawDot> dots;  // those that cast shadows first
-  std::size_t casting_dots = 0;
+  std::vector<DrawDot> dots;
   Eigen::AlignedBox3f bounds_m;  // of all of it
 };
 
@@ -51,5 +53,46 @@ struct DrawLists {
 std::vector<std::array<Vec3f, 3>> corner_normals(const TriangleMesh& mesh, double crease_rad);
 
 DrawLists make_draw_lists(const RenderScene& scene);
+
+constexpr int kShadowSide_px = 2048;
+
+/// The std140 block `Frame` of shaders.hpp, where each field's meaning stands.
+struct FrameBlock {
+  Eigen::Matrix4f clip_from_world, shadow_from_world;
+  Eigen::Vector4f eye, to_light, to_fill, camera_right, camera_up, ground, grid, lens, hollow;
+};
+static_assert(sizeof(FrameBlock) == 4 * (2 * 16 + 9 * 4));
+
+FrameBlock make_frame_block(const RenderScene& scene, const RenderView& view,
+                            const DrawLists& lists);
+
+using PixelBox = Eigen::AlignedBox2i;  // with both its corners; empty: no pixel
+
+struct ChangedArea {
+  PixelBox picture_px;  // in a picture of the final size, rows from the bottom
+  PixelBox shadow_px;   // of the shadow map
+};
+
+/// Of what came or went between two lists, in their order, and of the shadows that it throws on
+/// what is as low as `lowest_m` or higher; none when any of it reaches behind the camera.
+std::optional<ChangedArea> changed_area(const DrawLists& before, const DrawLists& now,
+                                        const FrameBlock& frame, float lowest_m, int width_px,
+                                        int height_px);
+
+/// The dots that may reach into the box of a picture of that size, and those whose shadows may
+/// reach into that of the shadow map, in their order: no other is worth its light, which is
+/// reckoned a dot.
+std::vector<DrawDot> dots_in_picture(std::span<const DrawDot> dots, const FrameBlock& frame,
+                                     const PixelBox& box_px, int width_px, int height_px);
+std::vector<DrawDot> dots_in_shadow_map(std::span<const DrawDot> dots, const FrameBlock& frame,
+                                        const PixelBox& box_px);
+
+/// All of a picture of that size.
+inline PixelBox whole_px(int width_px, int height_px) {
+  return {Eigen::Vector2i(0, 0), Eigen::Vector2i(width_px - 1, height_px - 1)};
+}
+
+/// The box with so many pixels more on each side, but none outside the picture.
+PixelBox widened(const PixelBox& box_px, int by_px, int width_px, int height_px);
 
 }  // namespace gnbv

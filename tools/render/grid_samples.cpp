@@ -1,7 +1,5 @@
 #include "tools/render/grid_samples.hpp"
 
-#include "tools/scene/colour.hpp"
-
 namespace gnbv {
 namespace {
 
@@ -16,17 +14,12 @@ Vec3 ahead_of(const ViewPose& view) {
 
 void add_grid_samples(const AgvsConfig& config, const ViewPose& from, double scale, double unit_m,
                       RenderScene& scene) {
-  const auto add = [&](const ViewPose& view, const Rgb& colour) {
+  for (const ViewPose& view : sample_agvs(config, from, scale)) {
     const Vec3 tip_m = view.p_world_m + 26.0 * unit_m * ahead_of(view);
-    scene.balls.push_back(
-        {view.p_world_m.cast<float>(), static_cast<float>(7.0 * unit_m), colour, true});
-    scene.tubes.push_back({{view.p_world_m.cast<float>(), tip_m.cast<float>()},
-                           {colour},
-                           static_cast<float>(2.4 * unit_m)});
-  };
-  for (const ViewPose& view : sample_agvs(config, from, scale)) add(view, kSample);
-  scene.balls.push_back(
-      {from.p_world_m.cast<float>(), static_cast<float>(11.0 * unit_m), kVehicle, true});
+    scene.add_ball(view.p_world_m, 7.0 * unit_m, kSample, true);
+    scene.add_line(view.p_world_m, tip_m, 2.4 * unit_m, kSample);
+  }
+  scene.add_ball(from.p_world_m, 11.0 * unit_m, kVehicle, true);
 }
 
 RenderView view_of_grid_samples(const AgvsConfig& config, const ViewPose& from, double largest,

@@ -1,5 +1,3 @@
-#include "tools/render/lettering.hpp"
-
 #include <freetype/freetype.h>
 #include <freetype/ftadvanc.h>
 #include <freetype/ftoutln.h>
@@ -14,6 +12,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
+#include "tools/render/caption.hpp"
 
 namespace gnbv {
 namespace {
@@ -42,6 +41,8 @@ void blend(Image& image, int x, int y, double share, const Rgb8& colour) {
     pixel[k] = static_cast<std::uint8_t>(std::lround((1.0 - share) * pixel[k] + share * colour[k]));
   }
 }
+
+int within(double px, int size_px) { return static_cast<int>(std::clamp(px, 0.0, 1.0 * size_px)); }
 
 class Font {
  public:
@@ -140,9 +141,6 @@ void draw_line(Image& image, const std::array<double, 2>& from_px,
   const double dx = to_px[0] - from_px[0];
   const double dy = to_px[1] - from_px[1];
   const double dd = dx * dx + dy * dy;
-  const auto within = [](double px, int size_px) {
-    return static_cast<int>(std::clamp(px, 0.0, 1.0 * size_px));
-  };
   const int right = within(std::max(from_px[0], to_px[0]) + reach + 1.0, image.width_px);
   const int bottom = within(std::max(from_px[1], to_px[1]) + reach + 1.0, image.height_px);
   for (int y = within(std::min(from_px[1], to_px[1]) - reach, image.height_px); y < bottom; ++y) {
@@ -159,13 +157,10 @@ void draw_line(Image& image, const std::array<double, 2>& from_px,
 
 void draw_box(Image& image, const std::array<double, 2>& from_px,
               const std::array<double, 2>& to_px, const Rgb8& colour, double opacity) {
-  const auto within = [](double px, int size_px) {
-    return static_cast<int>(std::clamp(std::round(px), 0.0, 1.0 * size_px));
-  };
-  const int right = within(to_px[0], image.width_px);
-  const int bottom = within(to_px[1], image.height_px);
-  for (int y = within(from_px[1], image.height_px); y < bottom; ++y) {
-    for (int x = within(from_px[0], image.width_px); x < right; ++x) {
+  const int right = within(std::round(to_px[0]), image.width_px);
+  const int bottom = within(std::round(to_px[1]), image.height_px);
+  for (int y = within(std::round(from_px[1]), image.height_px); y < bottom; ++y) {
+    for (int x = within(std::round(from_px[0]), image.width_px); x < right; ++x) {
       blend(image, x, y, opacity, colour);
     }
   }

@@ -1,12 +1,10 @@
-#include "tools/render/panel_layout.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "sim/core/error.hpp"
-#include "tools/render/caption.hpp"
+#include "tools/render/pictures.hpp"
 
 namespace gnbv {
 namespace {

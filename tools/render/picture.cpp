@@ -6,7 +6,6 @@
 #include "sim/core/error.hpp"
 #include "tools/render/caption.hpp"
 #include "tools/run/words.hpp"
-#include "tools/scene/point_normals.hpp"
 #include "tools/scene/structure.hpp"
 
 namespace gnbv {
@@ -26,10 +25,8 @@ void frame_structure_alone(RunSource& run, const PictureOptions&,
 void frame_map(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   const Vec3 beside_m = Vec3::Constant(run.record().scenario.planner.map.resolution_m);
   for (const Vec3f& v : run.world().structure.vertices_m) {
-    const Box3 reach_m(v.cast<double>() - beside_m, v.cast<double>() + beside_m);
-    for (int i = 0; i < 8; ++i) {
-      points_world_m.push_back(reach_m.corner(static_cast<Box3::CornerType>(i)));
-    }
+    const auto reach = corners_m(Box3(v.cast<double>() - beside_m, v.cast<double>() + beside_m));
+    points_world_m.insert(points_world_m.end(), reach.begin(), reach.end());
   }
 }
 
@@ -112,13 +109,6 @@ std::span<const Vec3f> points_by(RunSource& run, const PictureOptions& options) 
   const std::span<const Vec3f> all = run.cloud().points_world_m;
   if (!options.iteration) return all;
   return all.first(run.cloud().view_points[iteration_of(run.record(), options, 0)]);
-}
-
-DotsItem cloud_dots(std::span<const Vec3f> points_world_m, double leaf_m, const Rgb& colour) {
-  return {.points_m = {points_world_m.begin(), points_world_m.end()},
-          .normals = point_normals(points_world_m, 2.5 * leaf_m),
-          .colours = {colour},
-          .radius_m = static_cast<float>(0.75 * leaf_m)};
 }
 
 }  // namespace gnbv

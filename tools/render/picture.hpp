@@ -112,7 +112,4 @@ std::string words_on_iteration(const RunRecord& record, const PictureOptions& op
 /// The points that the cloud had by the view that was asked for, or has.
 std::span<const Vec3f> points_by(RunSource& run, const PictureOptions& options);
 
-/// Dots of a cloud whose points lie a leaf apart, lit as the surface that they are on.
-DotsItem cloud_dots(std::span<const Vec3f> points_world_m, double leaf_m, const Rgb& colour);
-
 }  // namespace gnbv

@@ -106,10 +106,8 @@ LegendItem legend_of_valid(const ScoreRange& scores) {
   const std::string begin =
       fmt::format("valid: {}, utility {}", grouped(scores.valid), in_three_digits(scores.low));
   if (scores.low == scores.high) return {begin, {score_colours().back()}, Mark::dot};
-  return {.label = in_three_digits(scores.high) + ", highest",
-          .colours = score_colours(),
-          .label_before = begin,
-          .label_middle = in_three_digits(0.5 * (scores.low + scores.high))};
+  return bar(score_colours(), begin, in_three_digits(scores.high) + ", highest",
+             in_three_digits(0.5 * (scores.low + scores.high)));
 }
 
 /// What became of a decision's candidates, and what of them a picture shows.

@@ -8,6 +8,7 @@
 #include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
@@ -76,15 +77,12 @@ Picture draw_cloud(RunSource& run, const PictureOptions& options, const RenderVi
   picture.detail = counted(points.size(), "point") + words_on_iteration(record, options);
   const auto alone = static_cast<std::size_t>(std::count(are_alone.begin(), are_alone.end(), true));
   if (alone > 0) {
-    LegendItem& item =
-        picture.legend.emplace_back(entry(looks::kProfilePoints, LegendItem::Mark::dot));
-    item.label += ": " + counted(alone, "point");
+    picture.legend.push_back(
+        entry(looks::kProfilePoints, LegendItem::Mark::dot, ": " + counted(alone, "point")));
   }
   picture.legend.push_back(
-      {.label = fmt::format("{:.0f} or more", top),
-       .colours = amount_colours(),
-       .label_before = fmt::format("points in their voxel of {} m, from 1", voxel_m),
-       .label_middle = fmt::format("{:.0f}", 0.5 * (1.0 + top))});
+      bar(amount_colours(), fmt::format("points in their voxel of {} m, from 1", voxel_m),
+          fmt::format("{:.0f} or more", top), fmt::format("{:.0f}", 0.5 * (1.0 + top))));
   return picture;
 }
 

@@ -56,8 +56,7 @@ Picture draw_path(RunSource& run, const PictureOptions& options, const RenderVie
   picture.legend.push_back({step > 1 ? fmt::format("cameras, one view in {}", step) : "cameras",
                             {path_ramp(0.5)},
                             LegendItem::Mark::pyramid});
-  picture.legend.push_back(
-      {.label = "last", .colours = path_colours(), .label_before = "views and way, first"});
+  picture.legend.push_back(bar(path_colours(), "views and way, first", "last"));
   return picture;
 }
 

@@ -12,6 +12,7 @@
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
@@ -133,25 +134,22 @@ Picture draw_plan(RunSource& run, const PictureOptions& options, const RenderVie
               .thickness = 0.9},
              scene);
   const Vec3& here_m = record.views[iteration].decision.view.p_world_m;
-  scene.balls.push_back(
-      {here_m.cast<float>(), static_cast<float>(6.0 * unit_m), looks::kHull.rgb()});
+  scene.add_ball(here_m, 6.0 * unit_m, looks::kHull.rgb());
   add_tour(record, here_m, standing.views(), options.every, unit_m, scene);
   picture.detail = plan_detail(record, standing, iteration);
-  picture.legend = {
-      {.label = "last view", .colours = path_colours(), .label_before = "flown, from the first"},
-      entry(looks::kHull, LegendItem::Mark::dot)};
+  picture.legend = {bar(path_colours(), "flown, from the first", "last view"),
+                    entry(looks::kHull, LegendItem::Mark::dot)};
   if (!standing.views().empty()) {
-    picture.legend.push_back(entry(looks::kPlan, LegendItem::Mark::line));
-    picture.legend.back().label +=
-        fmt::format(", the next {} thick", std::min(kSoonViews, standing.views().size()));
+    const std::size_t thick = std::min(kSoonViews, standing.views().size());
+    picture.legend.push_back(
+        entry(looks::kPlan, LegendItem::Mark::line, fmt::format(", the next {} thick", thick)));
   }
   if (!plan.cubes.empty()) {
     picture.legend.push_back(
-        {.label = fmt::format("{:.0f} or more voxels to be had in {} m, when view {} was planned",
-                              top, plan.cube_m, standing.made->iteration + 1),
-         .colours = amount_colours(),
-         .label_before = "0",
-         .label_middle = fmt::format("{:.3g}", 0.5 * top)});
+        bar(amount_colours(), "0",
+            fmt::format("{:.0f} or more voxels to be had in {} m, when view {} was planned", top,
+                        plan.cube_m, standing.made->iteration + 1),
+            fmt::format("{:.3g}", 0.5 * top)));
   }
   return picture;
 }

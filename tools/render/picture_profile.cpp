@@ -3,39 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "tools/render/panel_layout.hpp"
+#include "tools/render/picture.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
 
 void frame_profile(RunSource& run, const PictureOptions&, std::vector<Vec3>& points_world_m) {
   frame_structure(run, points_world_m);
-  const Box3& box_m = run.record().scenario.workspace_m;
-  for (int i = 0; i < 8; ++i) {
-    points_world_m.push_back(box_m.corner(static_cast<Box3::CornerType>(i)));
-  }
+  const std::array<Vec3, 8> corners = corners_m(run.record().scenario.workspace_m);
+  points_world_m.insert(points_world_m.end(), corners.begin(), corners.end());
   const double end_s = run.record().profile_end_s.value_or(0.0);
   for (const TrajectorySample& sample : run.record().path) {
     if (sample.time_s <= end_s) points_world_m.push_back(sample.T_world_body.translation());
   }
 }
 
-/// The twelve edges of the box: corner i lies at the upper end along x, y, z where its bit 0, 1, 2
-/// is set.
+/// The twelve edges of the box.
 void add_box(const Box3& box_m, double unit_m, RenderScene& scene) {
-  for (int i = 0; i < 8; ++i) {
-    for (const int bit : {1, 2, 4}) {
+  const std::array<Vec3, 8> corners = corners_m(box_m);
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (const std::size_t bit : {1U, 2U, 4U}) {
       if ((i & bit) != 0) continue;
-      const auto corner = [&](int k) {
-        return Vec3f(box_m.corner(static_cast<Box3::CornerType>(k)).cast<float>());
-      };
-      scene.tubes.push_back({{corner(i), corner(i | bit)},
-                             {looks::kWorkspace.rgb()},
-                             static_cast<float>(1.0 * unit_m)});
+      scene.add_line(corners[i], corners[i | bit], unit_m, looks::kWorkspace.rgb());
     }
   }
 }
@@ -57,8 +52,7 @@ Panel panel_of(RunSource& run, const ProfileStage& stage, double unit_m) {
   }
   for (std::size_t i = 0; i < stage.waypoints_world_m.size(); ++i) {
     const Vec3& p_m = stage.waypoints_world_m[i];
-    scene.balls.push_back(
-        {p_m.cast<float>(), static_cast<float>(4.5 * unit_m), looks::kProfile.rgb()});
+    scene.add_ball(p_m, 4.5 * unit_m, looks::kProfile.rgb());
     panel.labels.push_back({p_m, fmt::format("{}", i + 1), looks::kProfile.rgb()});
   }
   panel.note = fmt::format("{}: {}", counted(stage.waypoints, "waypoint"),
@@ -77,11 +71,12 @@ Picture draw_profile(RunSource& run, const PictureOptions& options, const Render
   picture.detail =
       fmt::format("profile of {}, {:.1f} s", counted(stages.back().waypoints, "waypoint"),
                   run.record().profile_end_s.value_or(0.0));
-  picture.legend = {entry(looks::kProfile, LegendItem::Mark::line),
-                    entry(looks::kWorkspace, LegendItem::Mark::line), entry(looks::kStructure),
-                    entry(looks::kSeen, LegendItem::Mark::dot)};
-  picture.legend.front().label += " from S, waypoints numbered";
-  picture.legend.back().label = fmt::format("LIDAR points, thinned to one in {} m", leaf_m);
+  picture.legend = {entry(looks::kProfile, LegendItem::Mark::line, " from S, waypoints numbered"),
+                    entry(looks::kWorkspace, LegendItem::Mark::line),
+                    entry(looks::kStructure),
+                    {fmt::format("LIDAR points, thinned to one in {} m", leaf_m),
+                     {looks::kSeen.rgb()},
+                     LegendItem::Mark::dot}};
   return picture;
 }
 

@@ -49,14 +49,13 @@ Picture draw_voxels(RunSource& run, const PictureOptions& options, const RenderV
     picture.detail += fmt::format(", {} predicted{}", grouped(voxels.predicted.size()),
                                   is_predicted_seen ? "" : ", none of these in sight");
   }
-  picture.legend = {entry(looks::kUnknown)};
-  picture.legend.front().label +=
-      fmt::format(" beside free, near surface: {}", grouped(voxels.unknown.size()));
+  picture.legend = {
+      entry(looks::kUnknown, LegendItem::Mark::square,
+            fmt::format(" beside free, near surface: {}", grouped(voxels.unknown.size())))};
   if (is_predicted_seen) picture.legend.push_back(entry(looks::kPredicted));
-  picture.legend.push_back({.label = fmt::format("{:.1f} m", high_m),
-                            .colours = amount_colours(),
-                            .label_before = fmt::format("occupied, by height from {:.1f}", low_m),
-                            .label_middle = fmt::format("{:.1f}", 0.5 * (low_m + high_m))});
+  picture.legend.push_back(
+      bar(amount_colours(), fmt::format("occupied, by height from {:.1f}", low_m),
+          fmt::format("{:.1f} m", high_m), fmt::format("{:.1f}", 0.5 * (low_m + high_m))));
   return picture;
 }
 

@@ -38,26 +38,22 @@ void draw_inset(const Image& inset, const std::string& words, int top_px, double
            {255, 255, 255}, 1.0);
   const double letter_px = fitting_height_px(words, 10.0 * u, width - 12.0 * u);
   draw_text(image, words, x0 + 6.0 * u, y0 + height + 16.0 * u, letter_px, kInk);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int left = x * inset.width_px / width;
-      const int right = std::max(left + 1, (x + 1) * inset.width_px / width);
-      const int top = y * inset.height_px / height;
-      const int bottom = std::max(top + 1, (y + 1) * inset.height_px / height);
-      std::array<int, 3> sum{};
-      for (int v = top; v < bottom; ++v) {
-        for (int h = left; h < right; ++h) {
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += inset.at(h, v)[k];
-        }
-      }
-      const int count = (right - left) * (bottom - top);
-      for (std::size_t k = 0; k < 3; ++k) {
-        image.rgb[3 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(image.width_px) +
-                       static_cast<std::size_t>(x0 + x)) +
-                  k] = static_cast<std::uint8_t>(sum[k] / count);
-      }
+  const auto covered = [](int px, int size_px, int of_px) {  // the first, and the one past the last
+    const int first = px * of_px / size_px;
+    return std::pair{first, std::max(first + 1, (px + 1) * of_px / size_px)};
+  };
+  Image small = blank(width, height);
+  for (std::size_t i = 0; i < small.rgb.size(); ++i) {
+    const int pixel = static_cast<int>(i / 3);
+    const auto [left, right] = covered(pixel % width, width, inset.width_px);
+    const auto [top, bottom] = covered(pixel / width, height, inset.height_px);
+    int sum = 0;
+    for (int v = top; v < bottom; ++v) {
+      for (int h = left; h < right; ++h) sum += inset.at(h, v)[i % 3];
     }
+    small.rgb[i] = static_cast<std::uint8_t>(sum / ((right - left) * (bottom - top)));
   }
+  paste(small, x0, y0, image);
 }
 
 /// That of the first panel where the two are nearly as large: a longer one would say otherwise.

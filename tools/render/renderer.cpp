@@ -11,9 +11,8 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/module.hpp"
-#include "tools/render/changed_area.hpp"
+#include "tools/render/geometry.hpp"
 #include "tools/render/gl_context.hpp"
-#include "tools/render/screen_shaders.hpp"
 #include "tools/render/shaders.hpp"
 
 namespace gnbv {
@@ -46,10 +45,6 @@ std::size_t texture_bytes(int width, int height) {
   constexpr std::size_t kRoom_bytes = 64U << 20U;
   return 2 * kWidest_bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) +
          kRoom_bytes;
-}
-
-PixelBox whole(int width, int height) {
-  return {Eigen::Vector2i(0, 0), Eigen::Vector2i(width - 1, height - 1)};
 }
 
 // kHollowFragment looks no farther than this share of the height, kResolveFragment two pixels.
@@ -173,22 +168,24 @@ struct Renderer::Impl {
     gl.Scissor(box.min().x(), box.min().y(), box.sizes().x() + 1, box.sizes().y() + 1);
   }
 
+  template <typename Items>
+  void fill(GLenum target, GLuint buffer, const Items& items) {
+    const auto bytes = std::as_bytes(std::span(items));
+    gl.BindBuffer(target, buffer);
+    gl.BufferData(target, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_STREAM_DRAW);
+  }
+
   void upload(const DrawLists& lists, const FrameBlock& frame) {
     std::vector<std::uint32_t> all;
     for (const auto* const list :
          {&lists.casting, &lists.plain, &lists.ghost, &lists.translucent}) {
       all.insert(all.end(), list->begin(), list->end());
     }
-    const auto fill = [&](GLenum target, GLuint name, const void* data, std::size_t bytes) {
-      gl.BindBuffer(target, name);
-      gl.BufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
-    };
     gl.BindVertexArray(solids);  // the index buffer belongs to it
-    fill(GL_ARRAY_BUFFER, vertices, lists.vertices.data(),
-         lists.vertices.size() * sizeof(DrawVertex));
-    fill(GL_ELEMENT_ARRAY_BUFFER, indices, all.data(), all.size() * sizeof(std::uint32_t));
-    fill(GL_ARRAY_BUFFER, ball_data, lists.balls.data(), lists.balls.size() * sizeof(DrawBall));
-    fill(GL_UNIFORM_BUFFER, frame_data, &frame, sizeof(frame));
+    fill(GL_ARRAY_BUFFER, vertices, lists.vertices);
+    fill(GL_ELEMENT_ARRAY_BUFFER, indices, all);
+    fill(GL_ARRAY_BUFFER, ball_data, lists.balls);
+    fill(GL_UNIFORM_BUFFER, frame_data, std::array{frame});
   }
 
   void upload_paint(const PaintItem& paint, const RenderView& view) {
@@ -201,12 +198,6 @@ struct Renderer::Impl {
                   paint.height_px, 0, kSrgb.format, kSrgb.type, paint.rgba.data());
   }
 
-  void upload_dots(std::span<const DrawDot> dots_to_draw) {
-    gl.BindBuffer(GL_ARRAY_BUFFER, dot_data);
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(dots_to_draw.size_bytes()),
-                  dots_to_draw.data(), GL_STREAM_DRAW);
-  }
-
   // `first` and `count` are in indices.
   void draw_solids(GLuint program, std::size_t first, std::size_t count) {
     gl.UseProgram(program);
@@ -215,23 +206,20 @@ struct Renderer::Impl {
                     reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
   }
 
-  void draw_points(GLuint program, GLuint array, std::size_t count) {
+  void draw_arrays(GLuint program, GLuint array, GLenum shape, std::size_t count) {
     gl.UseProgram(program);
     gl.BindVertexArray(array);
-    gl.DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+    gl.DrawArrays(shape, 0, static_cast<GLsizei>(count));
   }
-
-  void draw_screen(GLuint program) {
-    gl.UseProgram(program);
-    gl.BindVertexArray(nothing);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  void draw_points(GLuint program, GLuint array, std::size_t count) {
+    draw_arrays(program, array, GL_POINTS, count);
   }
+  void draw_screen(GLuint program) { draw_arrays(program, nothing, GL_TRIANGLES, 3); }
 
   // What the key light sees.
   void draw_shadows(const DrawLists& lists, const FrameBlock& frame, const PixelBox& box) {
-    const std::vector<DrawDot> casting =
-        dots_in_shadow_map(std::span(lists.dots).first(lists.casting_dots), frame, box);
-    upload_dots(casting);
+    const std::vector<DrawDot> casting = dots_in_shadow_map(lists.dots, frame, box);
+    fill(GL_ARRAY_BUFFER, dot_data, casting);
     gl.BindFramebuffer(GL_FRAMEBUFFER, targets[kShadow]);
     gl.Viewport(0, 0, kShadowSide_px, kShadowSide_px);
     draw_only_in(box);
@@ -263,9 +251,7 @@ struct Renderer::Impl {
     gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl.DepthMask(GL_FALSE);
     if (scene.ground && view.T_world_camera.translation().z() > scene.ground->z_m) {
-      gl.UseProgram(ground);
-      gl.BindVertexArray(nothing);
-      gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+      draw_arrays(ground, nothing, GL_TRIANGLE_STRIP, 4);
     }
     // the nearest layer of the ghosts: first where it is, then how it looks
     // ghosts lie a little farther away, so that dots on them show whole
@@ -288,8 +274,8 @@ struct Renderer::Impl {
   // All of it, or of a series what differs from the picture before; remembers this one.
   ChangedArea area_to_draw(const RenderScene& scene, const RenderView& view, const DrawLists& lists,
                            const FrameBlock& frame) {
-    const ChangedArea all{whole(view.width_px, view.height_px),
-                          whole(kShadowSide_px, kShadowSide_px)};
+    const ChangedArea all{whole_px(view.width_px, view.height_px),
+                          whole_px(kShadowSide_px, kShadowSide_px)};
     if (!scene.series_box_m) {
       last.reset();
       return all;
@@ -346,7 +332,7 @@ struct Renderer::Impl {
     begin_target(kPicture, kSrgb, 2 * width, 2 * height);
     draw_only_in(box.isEmpty() ? box : PixelBox(2 * box.min(), (2 * box.max()).array() + 1));
     const std::vector<DrawDot> near = dots_in_picture(lists.dots, frame, box, width, height);
-    upload_dots(near);
+    fill(GL_ARRAY_BUFFER, dot_data, near);
     draw_things(scene, view, lists, near.size());
     begin_target(kDistances, kFloat, width, height);
     draw_only_in(box);

@@ -11,8 +11,8 @@
 #include "tools/run/run_record.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
-#include "tools/scene/point_normals.hpp"
 #include "tools/scene/structure.hpp"
+#include "tools/scene/voxels.hpp"
 
 namespace gnbv {
 namespace {
@@ -206,13 +206,12 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
       grouped(now.flown_m, 1), counted(now.cloud_points, "point"),
       speed > 0.0 ? fmt::format(", shown {:.0f} times as fast", speed) : "");
-  picture.legend = {{.label = "last view", .colours = path_colours(), .label_before = "first"},
+  const std::string larger = scale > 1.05 ? fmt::format(", {:.1f} times as large", scale) : "";
+  picture.legend = {bar(path_colours(), "first", "last view"),
                     {"not seen yet", {looks::kStructure.rgb()}},
                     entry(looks::kSeen, LegendItem::Mark::dot),
-                    entry(looks::kFrontRotors),
+                    {"vehicle" + larger, {looks::kFrontRotors.rgb()}},
                     entry(looks::kCamera, LegendItem::Mark::pyramid)};
-  picture.legend[3].label =
-      scale > 1.05 ? fmt::format("vehicle, {:.1f} times as large", scale) : "vehicle";
   picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   return picture;

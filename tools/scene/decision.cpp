@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -18,9 +17,9 @@ namespace {
 constexpr double kRejectedPin = 12.0;  // layout units
 
 /// The other end of a pin of that length, towards where the view looks.
-Vec3f pin_end(const ViewPose& view, double length_m) {
+Vec3 pin_end(const ViewPose& view, double length_m) {
   const Vec3 ahead(std::cos(view.gimbal_pitch_rad), 0.0, -std::sin(view.gimbal_pitch_rad));
-  return (view.p_world_m + length_m * (T_world_body(view).linear() * ahead)).cast<float>();
+  return view.p_world_m + length_m * (T_world_body(view).linear() * ahead);
 }
 
 constexpr int kRaysAcross = 9;
@@ -28,16 +27,10 @@ constexpr int kRaysDown = 7;
 
 /// Where a ray's way through a box ends; 0 where it misses the box.
 double exit_m(const Box3& box_m, const Vec3& from, const Vec3& along) {
-  double enter = 0.0;
-  double exit = std::numeric_limits<double>::infinity();
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const double low = (box_m.min()[k] - from[k]) / along[k];
-    const double high = (box_m.max()[k] - from[k]) / along[k];
-    if (std::isnan(low) || std::isnan(high)) continue;  // along a face
-    enter = std::max(enter, std::min(low, high));
-    exit = std::min(exit, std::max(low, high));
-  }
-  return enter < exit ? exit : 0.0;
+  const Eigen::Array3d a_m = (box_m.min() - from).array() / along.array();
+  const Eigen::Array3d b_m = (box_m.max() - from).array() / along.array();
+  const double exit = a_m.max(b_m).minCoeff();
+  return std::max(0.0, a_m.min(b_m).maxCoeff()) < exit ? exit : 0.0;
 }
 
 /// The ray up to the first occupied voxel or its end, in pieces through free voxels and through
@@ -53,15 +46,12 @@ void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& along, dou
     const bool is_last = end_m >= length_m;
     const VoxelState next = is_last ? state : grid.state_at(from + end_m * along);
     if (next == state && !is_last) continue;
-    const Vec3f end = (from + std::min(end_m, length_m) * along).cast<float>();
+    const Vec3 end = from + std::min(end_m, length_m) * along;
     const bool is_unknown = state == VoxelState::unknown;
-    scene.tubes.push_back({{(from + begin_m * along).cast<float>(), end},
-                           {(is_unknown ? looks::kRayUnknown : looks::kRayFree).rgb()},
-                           static_cast<float>((is_unknown ? 1.6 : 1.2) * unit_m)});
+    scene.add_line(from + begin_m * along, end, (is_unknown ? 1.6 : 1.2) * unit_m,
+                   (is_unknown ? looks::kRayUnknown : looks::kRayFree).rgb());
     says_something = says_something || is_unknown || next == VoxelState::occupied;
-    if (next == VoxelState::occupied) {
-      scene.balls.push_back({end, static_cast<float>(4.0 * unit_m), looks::kRayHit.rgb()});
-    }
+    if (next == VoxelState::occupied) scene.add_ball(end, 4.0 * unit_m, looks::kRayHit.rgb());
     begin_m = end_m;
     state = next;
   }
@@ -118,8 +108,8 @@ ScoreRange scores_of(const Plan& plan) {
 BallItem ball_of(const Candidate& candidate, const ScoreRange& scores, double unit_m) {
   if (candidate.rejected) {
     const auto reason = static_cast<std::size_t>(*candidate.rejected);
-    return {pin_end(candidate.view, kRejectedPin * unit_m), static_cast<float>(4.8 * unit_m),
-            rejection_looks()[reason].rgb()};
+    return {pin_end(candidate.view, kRejectedPin * unit_m).cast<float>(),
+            static_cast<float>(4.8 * unit_m), rejection_looks()[reason].rgb()};
   }
   const double range = std::max(scores.high - scores.low, 1e-12);
   return {candidate.view.p_world_m.cast<float>(), static_cast<float>(6.6 * unit_m),
@@ -131,10 +121,8 @@ void add_candidates(const Plan& plan, double unit_m, RenderScene& scene) {
   for (const Candidate& candidate : plan.candidates) {
     const BallItem& ball = scene.balls.emplace_back(ball_of(candidate, scores, unit_m));
     const double length_m = (candidate.rejected ? kRejectedPin : 19.0) * unit_m;
-    scene.tubes.push_back(
-        {{candidate.view.p_world_m.cast<float>(), pin_end(candidate.view, length_m)},
-         {ball.colour},
-         static_cast<float>((candidate.rejected ? 1.4 : 2.4) * unit_m)});
+    scene.add_line(candidate.view.p_world_m, pin_end(candidate.view, length_m),
+                   (candidate.rejected ? 1.4 : 2.4) * unit_m, ball.colour);
   }
 }
 
@@ -159,9 +147,7 @@ void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decisio
                          ? -1
                          : decision.plan.candidates[decision.plan.chosen.front()].cluster;
   int tried = -1;
-  for (const Candidate& candidate : decision.plan.candidates) {
-    tried = std::max(tried, candidate.cluster);
-  }
+  for (const Candidate& c : decision.plan.candidates) tried = std::max(tried, c.cluster);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const bool is_chosen = static_cast<int>(i) == chosen;
     const std::vector<Rgb> colour = {(is_chosen ? looks::kLookedAt : looks::kFrontier).rgb()};

@@ -109,17 +109,16 @@ void add_views(const RunRecord& record, int every, const FlightLook& look, Rende
 
 void add_view(std::span<const CameraConfig> cameras, const ViewPose& view, const ViewSize& mark,
               const Rgb& colour, RenderScene& scene) {
-  const Vec3f body = view.p_world_m.cast<float>();
-  if (mark.ball_m > 0.0) scene.balls.push_back({body, static_cast<float>(mark.ball_m), colour});
+  if (mark.ball_m > 0.0) scene.add_ball(view.p_world_m, mark.ball_m, colour);
   if (mark.pyramid_m <= 0.0) return;
   for (const CameraConfig& camera : cameras) {
     FrustumItem frustum =
         frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, mark.pyramid_m, colour);
     frustum.edge_radius_m = static_cast<float>(mark.edge_m);
     frustum.face_opacity = mark.face_opacity;
-    const Vec3f apex = frustum.T_world_camera.translation().cast<float>();
-    if ((apex - body).norm() > 8.0 * mark.edge_m) {  // whose view it is could not be told
-      scene.tubes.push_back({{body, apex}, {colour}, frustum.edge_radius_m});
+    const Vec3 apex = frustum.T_world_camera.translation();
+    if ((apex - view.p_world_m).norm() > 8.0 * mark.edge_m) {  // whose view it is could not be told
+      scene.add_line(view.p_world_m, apex, mark.edge_m, colour);
     }
     scene.frusta.push_back(std::move(frustum));
   }
@@ -159,14 +158,12 @@ double rotor_span_m(const AirframeParameters& airframe) {
 void add_vehicle(const AirframeParameters& airframe, const Isometry& T_world_body, double scale,
                  RenderScene& scene) {
   const double span_m = scale * rotor_span_m(airframe);
-  const auto tube_m = static_cast<float>(0.03 * span_m);
-  const Vec3f centre = T_world_body.translation().cast<float>();
-  scene.balls.push_back({centre, static_cast<float>(0.14 * span_m), looks::kHull.rgb(), true});
+  const Vec3 centre = T_world_body.translation();
+  scene.add_ball(centre, 0.14 * span_m, looks::kHull.rgb(), true);
   for (const RotorMount& rotor : airframe.rotors) {
     const Vec3 hub = scale * rotor.p_body_m;
     const Rgb colour = (rotor.p_body_m.x() > 0.0 ? looks::kFrontRotors : looks::kRearRotors).rgb();
-    scene.tubes.push_back(
-        {{centre, (T_world_body * hub).cast<float>()}, {looks::kHull.rgb()}, tube_m, true});
+    scene.add_line(centre, T_world_body * hub, 0.03 * span_m, looks::kHull.rgb(), true);
     Isometry T_world_disc = T_world_body;
     T_world_disc.translation() = T_world_body * (hub + Vec3(0.0, 0.0, 0.06 * span_m));
     scene.surfaces.push_back(disc(T_world_disc, 0.21 * span_m, colour));

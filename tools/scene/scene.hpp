@@ -43,13 +43,13 @@ struct BallItem {
   bool casts_shadow = false;
 };
 
-/// A point cloud as round dots: cheaper than balls by far, for millions of points.
+/// A point cloud as round dots: cheaper than balls by far, for millions of points. They cast
+/// shadows.
 struct DotsItem {
   std::vector<Vec3f> points_m = {};
   std::vector<Vec3f> normals = {};  // (n), unit, either side; empty: lit from everywhere
   std::vector<Rgb> colours = {};    // (n), or one for all
   float radius_m = 0.02F;
-  bool casts_shadow = true;
 };
 
 /// The pyramid that a camera sees, out to `length_m` along its axis.
@@ -107,6 +107,19 @@ struct RenderScene {
   /// One of a series that shows no more than what lies in this box, as a film: light, haze and
   /// shadows stay the same throughout, and a renderer draws again only what has changed.
   std::optional<Box3> series_box_m = {};
+
+  void add_ball(const Vec3& centre_m, double radius_m, const Rgb& colour,
+                bool casts_shadow = false) {
+    balls.push_back({centre_m.cast<float>(), static_cast<float>(radius_m), colour, casts_shadow});
+  }
+  /// A tube of one piece.
+  void add_line(const Vec3& from_m, const Vec3& to_m, double radius_m, const Rgb& colour,
+                bool casts_shadow = false) {
+    tubes.push_back({{from_m.cast<float>(), to_m.cast<float>()},
+                     {colour},
+                     static_cast<float>(radius_m),
+                     casts_shadow});
+  }
 };
 
 /// What one colour, or one run of colours, means.
@@ -122,9 +135,16 @@ struct LegendItem {
   bool operator==(const LegendItem&) const = default;
 };
 
-/// The entry of a thing, under its own words.
-inline LegendItem entry(const Look& look, LegendItem::Mark mark = LegendItem::Mark::square) {
-  return {std::string(look.words), {look.rgb()}, mark};
+/// The entry of a thing, under its own words and perhaps more.
+inline LegendItem entry(const Look& look, LegendItem::Mark mark = LegendItem::Mark::square,
+                        const std::string& more = "") {
+  return {std::string(look.words) + more, {look.rgb()}, mark};
+}
+
+/// What colours mean from their low end to their high one.
+inline LegendItem bar(const std::vector<Rgb>& colours, const std::string& low,
+                      const std::string& high, const std::string& middle = "") {
+  return {.label = high, .colours = colours, .label_before = low, .label_middle = middle};
 }
 
 /// Words beside a place in the world; or on it, white on a badge of a colour, which is left out

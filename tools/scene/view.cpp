@@ -153,6 +153,14 @@ std::optional<Vec3> project(const RenderView& view, const Vec3& p_world_m) {
               0.5 * view.height_px + f_px * p.y() / p.z(), p.z());
 }
 
+std::array<Vec3, 8> corners_m(const Box3& box_m) {
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners[static_cast<std::size_t>(i)] = box_m.corner(static_cast<Box3::CornerType>(i));
+  }
+  return corners;
+}
+
 bool is_within(const RenderView& view, const Vec3& p_world_m) {
   const std::optional<Vec3> px = project(view, p_world_m);
   return px && px->x() >= 0.0 && px->y() >= 0.0 && px->x() <= view.width_px &&

@@ -1,6 +1,7 @@
 // Where a picture is taken from: cameras, what they show, and how users name them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,9 @@ RenderView frame_points(std::span<const Vec3> points_world_m, const ViewAngles& 
 /// Picture coordinates in px (0, 0 is the top left corner, pixel centres at halves) and depth in m;
 /// nothing behind the camera.
 std::optional<Vec3> project(const RenderView& view, const Vec3& p_world_m);
+
+/// Corner i lies at the upper end along x, y, z where its bit 0, 1, 2 is set.
+std::array<Vec3, 8> corners_m(const Box3& box_m);
 
 /// Whether the picture holds that place, hidden or not.
 bool is_within(const RenderView& view, const Vec3& p_world_m);

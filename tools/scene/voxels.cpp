@@ -1,7 +1,9 @@
 #include "tools/scene/voxels.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "sim/core/error.hpp"
 
@@ -59,6 +61,23 @@ void mark_around(const GridGeometry& geometry, const Key& key, std::vector<bool>
     }
   }
 }
+
+/// Sums over points, about one place for all.
+struct Moments {
+  double count = 0.0;
+  Vec3 sum = Vec3::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+
+  Vec3f normal() const {
+    if (count < 3.0) return Vec3f::Zero();
+    const Vec3 mean = sum / count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(products / count -
+                                                                mean * mean.transpose());
+    // points along a line have no normal
+    if (solver.eigenvalues()[1] < 1e-9) return Vec3f::Zero();
+    return solver.eigenvectors().col(0).cast<float>();
+  }
+};
 
 }  // namespace
 
@@ -163,6 +182,41 @@ bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderSc
          std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {
            return ball.colour == colour && is_shown(ball.centre_m, within_m);
          });
+}
+
+std::vector<Vec3f> point_normals(std::span<const Vec3f> points_world_m, double cell_m) {
+  std::unordered_map<std::uint64_t, Moments> cells;
+  for (const Vec3f& p_m : points_world_m) {
+    const Vec3 away_m = (p_m - points_world_m.front()).cast<double>();
+    Moments& cell = cells[voxel_code(p_m, cell_m)];
+    cell.count += 1.0;
+    cell.sum += away_m;
+    cell.products += away_m * away_m.transpose();
+  }
+  std::unordered_map<std::uint64_t, Vec3f> normal_of;
+  for (const auto& [code, own] : cells) {
+    const Vec3 centre_m = voxel_centre_m(code, cell_m);
+    Moments around;
+    for (int k = 0; k < 27; ++k) {
+      const Vec3 by_m = cell_m * Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+      const auto cell = cells.find(voxel_code((centre_m + by_m).cast<float>(), cell_m));
+      if (cell == cells.end()) continue;
+      around.count += cell->second.count;
+      around.sum += cell->second.sum;
+      around.products += cell->second.products;
+    }
+    normal_of[code] = around.normal();
+  }
+  std::vector<Vec3f> normals;
+  for (const Vec3f& p_m : points_world_m) normals.push_back(normal_of[voxel_code(p_m, cell_m)]);
+  return normals;
+}
+
+DotsItem cloud_dots(std::span<const Vec3f> points_world_m, double leaf_m, const Rgb& colour) {
+  return {.points_m = {points_world_m.begin(), points_world_m.end()},
+          .normals = point_normals(points_world_m, 2.5 * leaf_m),
+          .colours = {colour},
+          .radius_m = static_cast<float>(0.75 * leaf_m)};
 }
 
 }  // namespace gnbv

@@ -1,4 +1,4 @@
-// Voxels as things to draw, and what they hide.
+// Voxels and clouds as things to draw, and what they hide.
 #pragma once
 
 #include <span>
@@ -42,5 +42,13 @@ bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_worl
 /// the surfaces above. These may lie within an occupied voxel, but not behind it.
 bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderScene& scene,
                const Rgb& colour);
+
+/// Unit normal at each point, either side: the least principal axis of the points in the 3 x 3 x 3
+/// cells around its own, `cell_m` wide, the same for all points of a cell. Zero where fewer than
+/// three points or no plane tell it.
+std::vector<Vec3f> point_normals(std::span<const Vec3f> points_world_m, double cell_m);
+
+/// Dots of a cloud whose points lie a leaf apart, lit as the surface that they are on.
+DotsItem cloud_dots(std::span<const Vec3f> points_world_m, double leaf_m, const Rgb& colour);
 
 }  // namespace gnbv

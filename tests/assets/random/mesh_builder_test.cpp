@@ -23,10 +23,10 @@ Part sphere(double radius_m, std::size_t n) {
   return revolve(profile, 2 * n, uniform(0));
 }
 
-Ring polygon(double radius_m, double y_m, std::size_t n, double sense = 1.0) {
+Ring polygon(double radius_m, double y_m, std::size_t n) {
   Ring ring;
   for (std::size_t i = 0; i < n; ++i) {
-    const double angle = sense * 2.0 * kPi * static_cast<double>(i) / static_cast<double>(n);
+    const double angle = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(n);
     ring.emplace_back(radius_m * std::sin(angle), y_m, radius_m * std::cos(angle));
   }
   return ring;
@@ -87,40 +87,11 @@ TEST(Loft, PrismHasExactVolumeAndAreaWithEitherCap) {
   }
 }
 
-TEST(Loft, FacesOutwardsWhicheverWayTheRingsTurn) {
-  for (const double sense : {1.0, -1.0}) {
-    const Part part =
-        loft({polygon(1.0, 0.0, 7, sense), polygon(1.0, 1.0, 7, sense)}, {}, {}, uniform(0));
-    EXPECT_GT(signed_volume_m3(part), 0.0);
-    EXPECT_NEAR(winding_number(part, {0.1, 0.5, 0.2}), 1.0, 1e-12);
-    EXPECT_NEAR(winding_number(part, {0.1, 1.5, 0.2}), 0.0, 1e-12);
-  }
-}
-
-TEST(Loft, ClosesRingsOfAnySize) {
-  for (const std::size_t sides : {3, 4, 5, 6, 7, 8, 13}) {
-    const Part nail = loft({polygon(1.0, 0.0, sides)}, {}, {Vec3(0.0, 2.0, 0.0)}, uniform(0));
-    EXPECT_EQ(open_edges(nail.faces), 0U) << sides;
-    EXPECT_EQ(nail.faces.size(), 2 * sides - 2) << sides;
-    EXPECT_EQ(nail.points_m.size(), sides + 1) << sides;
-  }
-}
-
 TEST(Loft, RefusesRingsOfDifferentSizes) {
   EXPECT_THROW(loft({polygon(1.0, 0.0, 5), polygon(1.0, 1.0, 6)}, {}, {}, uniform(0)),
                BrokenInvariant);
   EXPECT_THROW(revolve({{0.0, 0.1}, {1.0, 1.0}, {2.0, 0.0}}, 8, uniform(0)), BrokenInvariant);
   EXPECT_THROW(revolve_loop({{0.0, 0.0}, {1.0, 1.0}, {2.0, 1.0}}, 8, uniform(0)), BrokenInvariant);
-}
-
-TEST(Append, KeepsEveryPart) {
-  TriangleMesh mesh;
-  append(mesh, sphere(1.0, 8));
-  append(mesh, translated(sphere(0.5, 6), {4.0, 0.0, 0.0}));
-  EXPECT_EQ(connected_parts(mesh.faces, mesh.vertices_m.size()).size(), 2U);
-  EXPECT_EQ(open_edges(mesh.faces), 0U);
-  EXPECT_EQ(mesh.face_material.size(), mesh.faces.size());
-  EXPECT_EQ(bounds_m(mesh).max().x(), 4.5);
 }
 
 }  // namespace

@@ -6,10 +6,8 @@
 #include <array>
 
 #include "bench/score/surface_reference.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
-#include "tools/render/pictures.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/words.hpp"
 
@@ -24,9 +22,8 @@ void write_clouds(const std::filesystem::path& folder) {
 
 TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
   const TempFolder temp;
+  write_clouds(temp.path());
   const auto points = watched().flown.result.belief.cloud.points_world_m();
-  write_cloud_ply(points, temp.path() / "cloud.ply");
-  write_cloud_ply(watched().flown.result.profile_points_world_m, temp.path() / "profile.ply");
   RunSource run = source(temp.path());
   const RenderView view = view_of(kCoveragePicture, run);
   const Picture picture = kCoveragePicture.draw(run, {}, view);

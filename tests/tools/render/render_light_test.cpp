@@ -5,7 +5,6 @@
 
 #include "sim/core/error.hpp"
 #include "tools/render/renderer.hpp"
-#include "tools/scene/point_normals.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {
@@ -96,20 +95,6 @@ TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
   EXPECT_NEAR(centre(3, false)[1], centre(1, false)[1], 6);
   EXPECT_LT(centre(1, false)[1], centre(0, false)[1] - 10);
   EXPECT_GT(centre(1, true)[0], centre(1, true)[2] + 20);  // red shines through
-}
-
-TEST(Dots, AppearWhereTheProjectionSaysAndHideWhatIsBehind) {
-  RenderView view = floor_view();
-  RenderScene scene = floor_scene(false);
-  DotsItem dots{.points_m = {{3, 1, 1}, {5, -1, 0.5F}}, .colours = {{0.02F, 0.02F, 0.8F}}};
-  dots.radius_m = 0.2F;
-  scene.dots.push_back(dots);
-  const Image image = render(scene, view);
-  for (const Vec3f& point : dots.points_m) {
-    const Vec3 p = project(view, point.cast<double>()).value();
-    const auto pixel = image.at(static_cast<int>(p.x()), static_cast<int>(p.y()));
-    EXPECT_GT(pixel[2], pixel[0] + 60);
-  }
 }
 
 TEST(PointNormals, StandOnAPlaneAndAreUnknownOnALine) {

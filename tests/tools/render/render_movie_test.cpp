@@ -7,7 +7,7 @@
 #include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/tools/render/laid_out.hpp"
 #include "tools/render/film.hpp"
 
 namespace gnbv {
@@ -15,10 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Image grey(int width_px, int height_px) {
-  return {width_px, height_px,
-          std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width_px * height_px), 128)};
-}
+const Image kGrey = paper(32, 24, 128);
 
 TEST(Film, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
   if (!has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
@@ -27,7 +24,7 @@ TEST(Film, AppearsWholeUnderNamesThatFfmpegWouldReadOtherwise) {
   fs::current_path(temp.path());
   for (const char* const name : {"http:film.mp4", "-film.mp4"}) {
     Film movie(name, 32, 24, 24);
-    movie.add(grey(32, 24));
+    movie.add(kGrey);
     EXPECT_FALSE(fs::exists(name));
     movie.finish();
     EXPECT_GT(fs::file_size(name), 100U);
@@ -67,7 +64,7 @@ TEST(Film, OfPillowHoldsEveryImageAndRepeatsByteForByte) {
     std::string bytes;
     for (const bool is_again : {false, true}) {
       Film film(temp.path() / name, 32, 24, 20);
-      Image image = grey(32, 24);
+      Image image = kGrey;
       film.add(image);
       for (int i = 0; i < 3; ++i) image.rgb[3 * (32 * 5 + 7) + static_cast<std::size_t>(i)] = 9;
       film.add(image);
@@ -85,7 +82,7 @@ TEST(Film, HalfWrittenLeavesNothing) {
   for (const char* const name : {"film.gif", "film.mp4"}) {
     if (std::string(name) == "film.gif" ? !has_pillow() : !has_ffmpeg()) continue;
     Film film(temp.path() / name, 32, 24, 24);
-    film.add(grey(32, 24));
+    film.add(kGrey);
   }
   EXPECT_TRUE(fs::is_empty(temp.path()));
 }
@@ -93,28 +90,23 @@ TEST(Film, HalfWrittenLeavesNothing) {
 /// One line, before anything is drawn, that says what to install.
 TEST(Film, NamesWhatIsMissing) {
   const TempFolder temp;
-  const auto complaint = [&](const char* name) -> std::string {
-    try {
-      const Film film(temp.path() / name, 32, 24, 24);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+  const auto said = [&](const char* name) {
+    return complaint([&] { const Film film(temp.path() / name, 32, 24, 24); });
   };
   const std::string path = std::getenv("PATH");
   const std::string python = python_program();
   ::setenv("PATH", temp.path().c_str(), 1);
-  EXPECT_NE(complaint("film.mp4").find("Debian package ffmpeg"), std::string::npos);
+  EXPECT_NE(said("film.mp4").find("Debian package ffmpeg"), std::string::npos);
   ::setenv("PATH", path.c_str(), 1);
   ::setenv("GNBV_PYTHON", "/nowhere/python", 1);
-  EXPECT_NE(complaint("film.apng").find("Debian package python3-pil"), std::string::npos);
+  EXPECT_NE(said("film.apng").find("Debian package python3-pil"), std::string::npos);
   // a Python that knows no Pillow
   write_file_atomically(temp.path() / "bare", "#!/bin/sh\nexec python3 -I -S \"$@\"\n");
   fs::permissions(temp.path() / "bare", fs::perms::owner_all);
   ::setenv("GNBV_PYTHON", (temp.path() / "bare").c_str(), 1);
-  EXPECT_NE(complaint("film.webp").find("Debian package python3-pil"), std::string::npos);
+  EXPECT_NE(said("film.webp").find("Debian package python3-pil"), std::string::npos);
   ::setenv("GNBV_PYTHON", python.c_str(), 1);
-  EXPECT_NE(complaint("film.avi").find("film.avi"), std::string::npos);
+  EXPECT_NE(said("film.avi").find("film.avi"), std::string::npos);
 }
 
 }  // namespace

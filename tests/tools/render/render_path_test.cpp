@@ -3,24 +3,14 @@
 
 #include <algorithm>
 
-#include "tests/support/made_run.hpp"
-#include "tests/tools/render/cube.hpp"
 #include "tests/tools/render/laid_out.hpp"
-#include "tools/render/pictures.hpp"
 #include "tools/scene/flight.hpp"
 
 namespace gnbv {
 namespace {
 
 RenderScene path_scene(RunSource& run, const PictureOptions& options) {
-  const PanelLayout layout = layout_of(kPathPicture, run, options);
-  return kPathPicture.draw(run, options, layout.view).panels.at(0).scene;
-}
-
-PictureOptions with_profile() {
-  PictureOptions options;
-  options.has_profile = true;
-  return options;
+  return scene_of(kPathPicture, run, options);
 }
 
 /// Its views are taken where the flight passes them.
@@ -32,7 +22,7 @@ RunRecord record_in_time() {
 
 TEST(PathPicture, ProfileFlightIsGreyAndPlannedFlightRunsThroughTheRamp) {
   RunSource run(record_in_time(), cube());
-  const RenderScene scene = path_scene(run, with_profile());
+  const RenderScene scene = path_scene(run, {.has_profile = true});
   ASSERT_EQ(scene.tubes.size(), 2U);
   EXPECT_EQ(scene.tubes[0].colours.size(), 1U);
   EXPECT_EQ(scene.tubes[0].points_m.front(), Vec3f(-4, -4, 1));
@@ -109,20 +99,14 @@ TEST(PathPicture, PyramidsBesideTheirViewsHangOnALine) {
   EXPECT_NEAR((hung.back().points_m.front() - hung.back().points_m.back()).norm(), 2.0, 1e-5);
 }
 
-TEST(PathPicture, WithoutSummaryTheWholeFlightIsOfOneKind) {
-  RunRecord record = made_record();
-  record.views_begin_s = {};
-  RunSource run(record, cube());
-  EXPECT_EQ(path_scene(run, with_profile()).tubes.size(), 1U);
-}
-
+/// Without a summary the whole flight is of one kind.
 TEST(PathPicture, DenseStraightFlightDrawsAsItsEnds) {
   RunRecord record = made_record();
   record.path.clear();
   for (int i = 0; i <= 1000; ++i) record.path.push_back(made_sample(i, {0.01 * i, 0, 5}));
   record.views_begin_s = {};
   RunSource run(record, cube());
-  const RenderScene scene = path_scene(run, {});
+  const RenderScene scene = path_scene(run, {.has_profile = true});
   ASSERT_EQ(scene.tubes.size(), 1U);
   // colours need a point each 1/150 of the way
   EXPECT_LT(scene.tubes[0].points_m.size(), 180U);

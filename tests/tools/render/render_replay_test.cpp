@@ -9,12 +9,9 @@
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
-#include "tools/render/picture.hpp"
-#include "tools/render/pictures.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/words.hpp"
@@ -44,15 +41,21 @@ bool same_plan(const Plan& a, const Plan& b) {
                     });
 }
 
-TEST(Replay, BelievesWhatTheMissionBelieved) {
-  EXPECT_TRUE(same_belief(replay_belief(watched().recorded(), kAsked), watched().beliefs[kAsked]));
+TEST(Replay, BelievesAndPlansInOneFlightWhatTheMissionDid) {
+  const ReplayRequest request{
+      .waypoints = {1}, .has_profile = true, .belief = kAsked + 1, .decision = kAsked};
+  const Replayed all = replay(watched().recorded(), request);
+  EXPECT_TRUE(same_belief(*all.belief, watched().beliefs[kAsked + 1]));
+  EXPECT_TRUE(same_belief(all.decision->belief, watched().beliefs[kAsked - 1]));
   EXPECT_FALSE(same_belief(watched().beliefs[kAsked - 1], watched().beliefs[kAsked]));
-}
-
-TEST(Replay, PlansWhatTheMissionPlanned) {
-  const ReplayedDecision decision = replay_decision(watched().recorded(), kAsked);
-  EXPECT_TRUE(same_belief(decision.belief, watched().beliefs[kAsked - 1]));
-  EXPECT_TRUE(same_plan(decision.plan, watched().plans[kAsked - 1]));  // the start is no decision
+  EXPECT_TRUE(same_plan(all.decision->plan, watched().plans[kAsked - 1]));  // the start is none
+  const std::vector<std::size_t> waypoints = {1};
+  const auto alone = replay_profile(watched().recorded(), waypoints);
+  ASSERT_EQ(all.profile.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(all.profile[i].points_world_m, alone[i].points_world_m);
+    EXPECT_EQ(all.profile[i].waypoints_world_m.size(), all.profile[i].waypoints);
+  }
 }
 
 TEST(Replay, RefusesAnotherMissionsRecord) {
@@ -60,7 +63,13 @@ TEST(Replay, RefusesAnotherMissionsRecord) {
   ++views[1].cloud_points;
   RecordedMission mission = watched().recorded();
   mission.views = views;
-  EXPECT_THROW(replay_belief(mission, kAsked), BadInput);
+  EXPECT_THROW(replay(mission, {.belief = kAsked}), BadInput);
+  // told to who asks, not to who flies ahead
+  const Flown& flown = watched().flown;
+  RunSource run(RunRecord{.folder = {}, .scenario = flown.scenario, .views = views}, flown.world);
+  run.expect({.belief = kAsked});
+  EXPECT_NO_THROW(run.fly_ahead());
+  EXPECT_THROW(run.belief_after(kAsked), BadInput);
 }
 
 TEST(Replay, ProfileEndsAsTheMissionsDid) {
@@ -101,29 +110,23 @@ TEST(Replay, ProfileNeedsNoViewsEvenOfAnOracle) {
   EXPECT_FALSE(stages[0].points_world_m.empty());
 }
 
-TEST(CandidatesRecord, RoundTripsAndNamesDamage) {
+void write_candidates(const Watched& of, const std::filesystem::path& folder) {
+  CandidatesFile file(folder, 1);
+  for (std::size_t i = 0; i < of.plans.size(); ++i) file.write(i + 1, of.plans[i]);
+  file.finish();
+}
+
+TEST(CandidatesRecord, DamageIsNamed) {
   const TempFolder temp;
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
-  CandidatesFile file(temp.path(), 1);
-  for (std::size_t i = 0; i < watched().plans.size(); ++i) file.write(i + 1, watched().plans[i]);
-  file.finish();
-  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
-    const auto plan = read_candidates(temp.path(), i + 1);
-    ASSERT_TRUE(plan.has_value());
-    EXPECT_TRUE(same_plan(*plan, watched().plans[i])) << i;
-  }
-  const auto complaint = [&](std::size_t iteration) -> std::string {
-    try {
-      read_candidates(temp.path(), iteration);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+  write_candidates(watched(), temp.path());
+  const auto said = [&](std::size_t iteration) {
+    return complaint([&] { read_candidates(temp.path(), iteration); });
   };
-  EXPECT_NE(complaint(99).find("--candidates --out NEW"), std::string::npos);
+  EXPECT_NE(said(99).find("--candidates --out NEW"), std::string::npos);
   write_file_atomically(temp.path() / "candidates.jsonl", "{\"iteration\":1,\"x_m\":\n");
-  EXPECT_NE(complaint(1).find("candidates.jsonl:1"), std::string::npos);
-  EXPECT_NE(complaint(1).find("--candidates --out NEW"), std::string::npos);
+  EXPECT_NE(said(1).find("candidates.jsonl:1"), std::string::npos);
+  EXPECT_NE(said(1).find("--candidates --out NEW"), std::string::npos);
   write_file_atomically(temp.path() / "candidates.jsonl", "");  // an oracle's: it samples none
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
 }
@@ -133,9 +136,7 @@ TEST(RunSource, ADecisionThatIsReadHasTheClustersThatItTried) {
       smoke({"planner.termination.max_iterations=5", "planner.fvs.order=largest",
              "planner.fvs.entropy_threshold_nat=1", "planner.fvs.entropy_window=1"}));
   const TempFolder temp;
-  CandidatesFile file(temp.path(), 1);
-  for (std::size_t i = 0; i < stuck.plans.size(); ++i) file.write(i + 1, stuck.plans[i]);
-  file.finish();
+  write_candidates(stuck, temp.path());
   const Flown& flown = stuck.flown;
   std::size_t compared = 0;
   for (std::size_t i = 1; i < flown.result.views.size(); ++i) {
@@ -154,8 +155,7 @@ TEST(RunSource, ADecisionThatIsReadHasTheClustersThatItTried) {
 /// And the picture shows all of each, though cubes stick out of the structure.
 TEST(VoxelsPicture, HoldsACubeForEachVoxelOfTheMap) {
   RunSource run = source();
-  PictureOptions options;
-  options.iteration = kAsked;
+  const PictureOptions options{.iteration = kAsked};
   const RenderView view = view_of(kVoxelsPicture, run, options);
   const RenderScene scene = kVoxelsPicture.draw(run, options, view).panels.at(0).scene;
   const OccupancyGrid& grid = watched().beliefs[kAsked].grid;
@@ -205,9 +205,7 @@ TEST(ProfilePicture, FramesTheBoxAndNumbersTheWaypointsOnTheSpot) {
 TEST(ProfilePicture, LinesTakeTheSameShareOfAnyPicture) {
   RunSource run = source();
   const auto share = [&](int times) {
-    PictureOptions options;
-    options.width_px *= times;
-    options.height_px *= times;
+    const PictureOptions options{.width_px = 1280 * times, .height_px = 720 * times};
     const RenderView view = view_of(kProfilePicture, run, options);
     const Picture picture = kProfilePicture.draw(run, options, view);
     const auto radius_m = static_cast<double>(picture.panels[0].scene.tubes.front().radius_m);
@@ -227,22 +225,6 @@ TEST(ProfilePicture, IsSeenFromAboveUnlessAnglesAreAskedFor) {
   EXPECT_NEAR(down(kProfilePicture, asked), down(kPathPicture, {}), 1e-9);
 }
 
-TEST(Replay, OneFlightBringsBackWhatThreeDid) {
-  const ReplayRequest request{
-      .waypoints = {1}, .has_profile = true, .belief = kAsked + 1, .decision = kAsked};
-  const Replayed all = replay(watched().recorded(), request);
-  EXPECT_TRUE(same_belief(*all.belief, watched().beliefs[kAsked + 1]));
-  EXPECT_TRUE(same_belief(all.decision->belief, watched().beliefs[kAsked - 1]));
-  EXPECT_EQ(all.decision->plan.candidates.size(), watched().plans[kAsked - 1].candidates.size());
-  const std::vector<std::size_t> waypoints = {1};
-  const auto alone = replay_profile(watched().recorded(), waypoints);
-  ASSERT_EQ(all.profile.size(), alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    EXPECT_EQ(all.profile[i].points_world_m, alone[i].points_world_m);
-    EXPECT_EQ(all.profile[i].waypoints_world_m.size(), all.profile[i].waypoints);
-  }
-}
-
 TEST(Replay, FlightAheadBringsBackWhatOneThatIsWaitedForDoes) {
   RunSource run = source();
   run.expect({.has_profile = true, .belief = kAsked + 1});
@@ -253,16 +235,6 @@ TEST(Replay, FlightAheadBringsBackWhatOneThatIsWaitedForDoes) {
   EXPECT_EQ(
       run.profile().back().points_world_m,
       replay_profile(watched().recorded(), std::vector<std::size_t>{1}).back().points_world_m);
-}
-
-TEST(Replay, FlightAheadThatFailsIsToldToWhoAsks) {
-  std::vector<ViewRecord> views = watched().flown.result.views;
-  ++views[1].cloud_points;
-  const Flown& flown = watched().flown;
-  RunSource run(RunRecord{.folder = {}, .scenario = flown.scenario, .views = views}, flown.world);
-  run.expect({.belief = kAsked});
-  EXPECT_NO_THROW(run.fly_ahead());
-  EXPECT_THROW(run.belief_after(kAsked), BadInput);
 }
 
 }  // namespace

@@ -4,11 +4,7 @@
 #include <algorithm>
 
 #include "sim/core/error.hpp"
-#include "tests/support/made_run.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tests/tools/render/cube.hpp"
 #include "tests/tools/render/laid_out.hpp"
-#include "tools/render/pictures.hpp"
 #include "tools/render/snapshots.hpp"
 #include "tools/scene/flight.hpp"
 
@@ -31,9 +27,8 @@ TEST(Snapshots, AreEachNthViewAndTheLast) {
 }
 
 TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
-  const TempFolder temp;
-  write_made_run(temp.path());
-  RunSource run(temp.path(), 1, [](double, const std::string&) {});
+  const MadeRun made;
+  RunSource run(made.temp.path(), 1, [](double, const std::string&) {});
   const RenderView view = view_of(kSnapshotFraming, run);
   Snapshots snapshots(run, {}, view, false);
   const std::size_t seen[] = {3, 5, 6};  // made_record()
@@ -50,11 +45,9 @@ TEST(Snapshots, ShowWhatWasFlownAndSeenUpToTheView) {
 }
 
 TEST(Snapshots, SayWhatTheInsetIsAndWhatIsPale) {
-  const TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
-  record.views.back().time_s = 2000.0;
-  RunSource run(record, cube());
+  MadeRun made;
+  made.record.views.back().time_s = 2000.0;
+  RunSource run = made.source();
   const RenderView view = view_of(kSnapshotFraming, run);
   const Picture picture = Snapshots(run, {}, view, false).picture(2, view);
   EXPECT_FALSE(picture.inset_words.empty());
@@ -67,12 +60,11 @@ TEST(Snapshots, SayWhatTheInsetIsAndWhatIsPale) {
 
 /// Wherever a view looks: its pyramid is in the picture, and the inset does not hide it.
 TEST(Snapshots, PyramidsStayClearOfTheInset) {
-  const TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
+  MadeRun made;
+  RunRecord& record = made.record;
   for (const double turned_rad : {0.0, 1.6, 3.1, 4.7}) {
     for (ViewRecord& view : record.views) view.decision.view.yaw_rad += turned_rad;
-    RunSource run(record, cube());
+    RunSource run = made.source();
     const RenderView view = view_of(kSnapshotFraming, run);
     Snapshots snapshots(run, {}, view, false);
     for (std::size_t i = 0; i < record.views.size(); ++i) {
@@ -83,8 +75,7 @@ TEST(Snapshots, PyramidsStayClearOfTheInset) {
                                  make_camera_model(record.scenario.cameras[0]).T_body_camera;
         for (const Vec3& corner_m : far_corners_m(frustum)) {
           const Vec3 p_px = project(view, corner_m).value();
-          EXPECT_TRUE(p_px.x() > 0 && p_px.x() < view.width_px);
-          EXPECT_TRUE(p_px.y() > 0 && p_px.y() < view.height_px);
+          EXPECT_TRUE(is_within(view, corner_m));
           EXPECT_FALSE(p_px.x() > 940 && p_px.y() < inset_px + 18 + 22) << p_px.transpose();
         }
       }
@@ -94,23 +85,17 @@ TEST(Snapshots, PyramidsStayClearOfTheInset) {
 
 /// However far the cameras see: beside a small structure they see far beyond it.
 TEST(Snapshots, TheFollowingCameraShowsVehicleAndStructureFromNear) {
-  const TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
+  MadeRun made;
+  RunRecord& record = made.record;
   for (CameraConfig& camera : record.scenario.cameras) camera.range_max_m = 40.0;
   record.path.clear();  // its views alone: a path of few samples would be smoothed beyond them
-  RunSource run(record, cube());
+  RunSource run = made.source();
   Snapshots snapshots(run, {}, view_of(kSnapshotFraming, run), true);
   const Box3 structure_m = bounds_m(run.world().structure);
   for (std::size_t i = 0; i < record.views.size(); ++i) {
     const RenderView view = snapshots.view(i);
     const Vec3 vehicle_m = record.views[i].decision.view.p_world_m;
-    for (const Vec3& p_m : {vehicle_m, Vec3(structure_m.center())}) {
-      const std::optional<Vec3> px = project(view, p_m);
-      ASSERT_TRUE(px.has_value());
-      EXPECT_TRUE(px->x() > 0 && px->x() < view.width_px && px->y() > 0 &&
-                  px->y() < view.height_px);
-    }
+    EXPECT_TRUE(is_within(view, vehicle_m) && is_within(view, structure_m.center()));
     EXPECT_LT(
         project(view, vehicle_m)->z(),
         2.0 * std::max((vehicle_m - structure_m.center()).norm(), structure_m.diagonal().norm()));
@@ -118,12 +103,11 @@ TEST(Snapshots, TheFollowingCameraShowsVehicleAndStructureFromNear) {
 }
 
 TEST(Snapshots, VehicleIsBetweenSamplesWhereTheViewIs) {
-  const TempFolder temp;
-  write_made_run(temp.path());
-  RunRecord record = read_run(temp.path());
+  MadeRun made;
+  RunRecord& record = made.record;
   record.views[1].time_s = 4.25;  // samples at 4 s and 5 s would be half a second off
   record.path.push_back(made_sample(5, {-4, 0, 3}));
-  RunSource run(record, cube());
+  RunSource run = made.source();
   const RenderView view = view_of(kSnapshotFraming, run);
   const RenderScene scene = Snapshots(run, {}, view, false).picture(1, view).panels.at(0).scene;
   EXPECT_TRUE(std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {

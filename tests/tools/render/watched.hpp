@@ -50,11 +50,5 @@ inline std::vector<ProfileStage> replay_profile(const RecordedMission& mission,
   return replay(mission, {.waypoints = {waypoints.begin(), waypoints.end()}, .has_profile = true})
       .profile;
 }
-inline Belief replay_belief(const RecordedMission& mission, std::size_t iteration) {
-  return std::move(*replay(mission, {.belief = iteration}).belief);
-}
-inline ReplayedDecision replay_decision(const RecordedMission& mission, std::size_t iteration) {
-  return std::move(*replay(mission, {.decision = iteration}).decision);
-}
 
 }  // namespace gnbv
