@@ -14,7 +14,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/live/live_report.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/page/page_parts.hpp"
+#include "tools/page/page_text.hpp"
 #include "tools/page/report.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"

@@ -17,7 +17,7 @@
 #include "tools/mesh_lint/mesh_warnings.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"
-#include "tools/page/page_parts.hpp"
+#include "tools/page/page_text.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/margin_note.hpp"

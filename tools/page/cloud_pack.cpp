@@ -1,16 +1,19 @@
-// What was measured of the surface: points, the voxels that hold them, the surface made of them.
+// What was measured of the surface: points, the voxels that hold them, the surface made of them;
+// and what of the true one was found.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
 
+#include "bench/score/scored_points.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/parallel.hpp"
 #include "tools/page/packs.hpp"
-#include "tools/page/true_surface.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/scene/error_scale.hpp"
 
@@ -86,7 +89,64 @@ bool is_whole_glb(const std::string& glb) {
   return head[1] == 2 && head[2] == glb.size() && kHead + head[3] <= glb.size();
 }
 
+constexpr double kErrorStep_m = 0.001;
+constexpr std::int64_t kMostIndex = std::numeric_limits<std::int16_t>::max();
+
+bool fits_16_bits(const VoxelSet& codes) {
+  return std::all_of(codes.begin(), codes.end(), [](std::uint64_t code) {
+    const auto index = index_of(code);
+    return std::all_of(index.begin(), index.end(),
+                       [](std::int64_t k) { return -kMostIndex <= k && k < kMostIndex; });
+  });
+}
+
 }  // namespace
+
+TrueVoxels true_voxels(const SurfaceReference& reference, std::size_t max_voxels) {
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    const VoxelSet& codes = reference.outside[size];
+    if (codes.size() <= max_voxels && fits_16_bits(codes)) {
+      return {.size_m = kCoverageSizes_m[size], .codes = codes};
+    }
+  }
+  return {};
+}
+
+std::vector<std::uint16_t> views_until_found(const TrueVoxels& voxels, const RunCloud& cloud) {
+  GNBV_CHECK(cloud.view_points.size() < kNeverFound, "{} views", cloud.view_points.size());
+  std::vector<std::uint16_t> until(voxels.codes.size(), kNeverFound);
+  std::size_t point = 0;
+  std::uint16_t state = 0;
+  for (const std::size_t end : ends_of(cloud)) {
+    for (; point < end; ++point) {
+      const std::uint64_t code = voxel_code(cloud.points_world_m[point], voxels.size_m);
+      const auto voxel = std::lower_bound(voxels.codes.begin(), voxels.codes.end(), code);
+      if (voxel == voxels.codes.end() || *voxel != code) continue;
+      std::uint16_t& found = until[static_cast<std::size_t>(voxel - voxels.codes.begin())];
+      found = std::min(found, state);
+    }
+    ++state;
+  }
+  return until;
+}
+
+std::vector<std::uint8_t> point_errors(const RayScene& scene, std::span<const Vec3f> points_world_m,
+                                       int threads) {
+  constexpr double kMost = kNotOfStructure - 1;
+  std::vector<std::uint8_t> errors(points_world_m.size());
+  const std::vector<std::uint8_t> is_its = points_of_structure(scene, points_world_m, threads);
+  constexpr std::size_t kPoints = 4096;  // a task
+  parallel_for_chunks(
+      threads, points_world_m.size(), kPoints, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const double off_m =
+              scene.distance_to_structure_m(points_world_m[i].cast<double>(), kMost * kErrorStep_m);
+          const double steps = std::min(kMost, std::round(off_m / kErrorStep_m));
+          errors[i] = is_its[i] != 0 ? static_cast<std::uint8_t>(steps) : kNotOfStructure;
+        }
+      });
+  return errors;
+}
 
 page::CloudData pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, const RayScene* scene,
                            int threads, page::Arrays& arrays) {

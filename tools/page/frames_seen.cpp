@@ -5,7 +5,7 @@
 
 #include "tools/frames/frame_sight.hpp"
 #include "tools/page/jpeg.hpp"
-#include "tools/page/thinning.hpp"
+#include "tools/page/packs.hpp"
 #include "tools/scene/colour.hpp"
 
 namespace gnbv {

@@ -1,4 +1,5 @@
-// Text that goes into a page and stays text there.
+// The page that report.cpp fills, as the build bundled it from tools/page/web, and text that goes
+// into a page and stays text there.
 #pragma once
 
 #include <string>
@@ -7,6 +8,14 @@
 #include <vector>
 
 namespace gnbv {
+
+/// HTML with {{POLICY}}, {{TITLE}}, {{STYLE}}, {{DATA}} and {{SCRIPT}} to be filled in.
+std::string_view page_template();
+std::string_view page_style();
+std::string_view page_script();
+
+/// Why style and script are empty in this program; empty where they are not.
+std::string_view why_no_page();
 
 /// For element content and quoted attributes.
 std::string html_escaped(std::string_view text);

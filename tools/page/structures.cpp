@@ -1,12 +1,10 @@
-#include "tools/page/structures.hpp"
-
 #include <map>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/page/thinning.hpp"
+#include "tools/page/packs.hpp"
 
 namespace gnbv {
 namespace {
@@ -50,6 +48,15 @@ std::shared_ptr<KnownStructure> known_structure(const Scenario& scenario, std::s
     // nothing to measure: there is nothing to find
   }
   return known;
+}
+
+/// int16 (n, 3): the voxel covers [index, index + 1) * size.
+std::vector<std::int16_t> voxel_indices(const TrueVoxels& voxels) {
+  std::vector<std::int16_t> indices;
+  for (const std::uint64_t code : voxels.codes) {
+    for (const std::int64_t k : index_of(code)) indices.push_back(static_cast<std::int16_t>(k));
+  }
+  return indices;
 }
 
 /// None where the run was flown around another one.

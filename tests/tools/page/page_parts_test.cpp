@@ -1,6 +1,6 @@
 // The law of a program that was built without the bundle: it says why. The parts are those that
 // this folder's CMakeLists.txt writes.
-#include "tools/page/page_parts.hpp"
+#include "tools/page/page_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@ import type { CandidateData } from "./data";
 import { make, number, significant } from "./dom";
 import { rangeOf, type Flight } from "./flight";
 import { makeLines, makeTube, redraw } from "./marks";
-import { validWords } from "./panels";
+import { tableOf, validWords } from "./panels";
 import type { Model } from "./surfaces";
 
 const kValid = 254; // of a candidate's kind, see page_data.hpp
@@ -159,18 +159,14 @@ export class CandidateMarks {
     if (this.now.length === 0) return make("p", { class: "fine" }, "No decision chose this view.");
     const best = this.now.filter((candidate) => candidate.terms)
       .sort((a, b) => b.terms![0] - a.terms![0]).slice(0, kBest);
-    const head = ["", "Utility", "Information", "Density", "Prediction", "Distance factor"];
     const row = (candidate: Candidate, rank: number) => make("tr",
       { class: candidate.kind === kChosen ? "ours" : "" },
       make("td", {}, candidate.kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`),
       ...Array.from(candidate.terms!, (value) => make("td", { class: "number" },
         significant(value))));
-    return make("div", {},
-      make("p", { class: "fine" }, ...this.sum()),
-      best.length === 0 ? "" : make("div", { class: "card scroll" }, make("table", {},
-        make("thead", {}, make("tr", {}, ...head.map((name, i) =>
-          make("th", { scope: "col", class: i > 0 ? "number" : "" }, name)))),
-        make("tbody", {}, ...best.map(row)))));
+    return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
+      best.length === 0 ? "" : tableOf("", ["", "Utility", "Information", "Density", "Prediction",
+        "Distance factor"], (column) => column > 0, best.map(row)));
   }
 }
 

@@ -48,7 +48,7 @@ function build() {
     replay.moveTo(view + 1);
   });
   const isTwoSheets = needsTwoSheets(page.runs);
-  const plots = new Plots(page.plots, clock, plotHeight_px(isTwoSheets));
+  const plots = new Plots(page.plots, flights, clock, plotHeight_px(isTwoSheets));
   const strip = new FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
