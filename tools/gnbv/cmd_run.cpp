@@ -13,7 +13,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/early_end.hpp"
 #include "tools/gnbv/shared_options.hpp"
-#include "tools/live/live_child.hpp"
+#include "tools/live/live_report.hpp"
 #include "tools/mesh_lint/mesh_warnings.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/view_pipe.hpp"

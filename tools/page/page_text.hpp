@@ -4,12 +4,10 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace gnbv {
 
-/// HTML with {{POLICY}}, {{TITLE}}, {{STYLE}}, {{DATA}} and {{SCRIPT}} to be filled in.
+/// HTML with {POLICY}, {TITLE}, {STYLE}, {DATA} and {SCRIPT} to be filled in by fmt.
 std::string_view page_template();
 std::string_view page_style();
 std::string_view page_script();
@@ -25,10 +23,5 @@ std::string script_json(std::string_view json);
 
 /// `'sha256-...'` of an inline script or style, as a Content-Security-Policy names what may run.
 std::string policy_hash(std::string_view text);
-
-/// The template with each {{KEY}} once replaced by its value, in one pass: values are never
-/// searched. Requires every key to be in the template, and no other.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string_view>>& values);
 
 }  // namespace gnbv

@@ -221,14 +221,12 @@ Report make_report(std::vector<RunRecord> records, const ReportOptions& options,
   const std::string json = nlohmann::ordered_json(page).dump(
       -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   report.policy = policy(options.is_live);
-  report.html =
-      filled(page_template(),
-             {{"POLICY", report.policy},
-              {"TITLE", html_escaped(page.title)},
-              {"STYLE", page_style()},
-              {"DATA", data_element("arrays", "application/octet-stream", base64(arrays.bytes())) +
-                           data_element("data", "application/json", script_json(json))},
-              {"SCRIPT", page_script()}});
+  report.html = fmt::format(
+      fmt::runtime(page_template()), fmt::arg("POLICY", report.policy),
+      fmt::arg("TITLE", html_escaped(page.title)), fmt::arg("STYLE", page_style()),
+      fmt::arg("DATA", data_element("arrays", "application/octet-stream", base64(arrays.bytes())) +
+                           data_element("data", "application/json", script_json(json))),
+      fmt::arg("SCRIPT", page_script()));
   return report;
 }
 

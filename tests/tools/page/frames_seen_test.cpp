@@ -15,8 +15,7 @@
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/page/jpeg.hpp"
-#include "tools/page/run_pack.hpp"
-#include "tools/page/thinning.hpp"
+#include "tools/page/packs.hpp"
 
 namespace gnbv {
 namespace {

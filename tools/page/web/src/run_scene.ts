@@ -59,7 +59,7 @@ export class RunScene {
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
   readonly believed: BelievedMarks | null;
-  readonly runSurface: three.Mesh | null;
+  readonly runSurface: three.Group | null;
   readonly gridStep_m: number;
   onLoad = () => {}; // of the picture on that surface
   private readonly body: three.Group;
