@@ -4,7 +4,7 @@ import { colourOf, hex, isDark, onPage, ramp, rampGradient, reason } from "./col
 import type { CandidateData } from "./data";
 import { make, number, significant } from "./dom";
 import { rangeOf, type Flight } from "./flight";
-import { makeLines, makeTube, redraw } from "./marks";
+import { ViewMark, makeDots, makeLines, makeTube } from "./marks";
 import { tableOf, validWords } from "./panels";
 import type { Model } from "./surfaces";
 
@@ -22,16 +22,15 @@ interface Candidate {
   terms: Float32Array | null; // of those that competed
 }
 
-export class CandidateMarks {
-  readonly object = new three.Group();
-  count = 0; // drawn
+export class CandidateMarks extends ViewMark {
   private readonly termsBefore: Uint32Array; // how many competed before each view's decision
-  private shownAt = -1;
+  private view = -1; // whose decision it is
   private now: Candidate[] = [];
 
   /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
       private readonly data: CandidateData, private readonly missed_m: number) {
+    super();
     const { begins, kind } = data;
     this.termsBefore = new Uint32Array(begins.length);
     for (let view = 0, competed = 0, i = 0; view < begins.length; ++view) {
@@ -40,15 +39,14 @@ export class CandidateMarks {
     }
   }
 
+  get count() { return this.now.length; } // drawn
+
   /** The decision that chose the last of the first `n` views. */
-  show(n: number) {
-    if (n === this.shownAt || !this.object.visible) return;
-    this.shownAt = n;
+  protected parts(n: number): three.Object3D[] {
+    this.view = n - 1;
     this.now = n > 0 ? this.decision(n - 1) : [];
-    this.count = this.now.length;
     const hasChosen = this.now.some(({ kind }) => kind === kChosen);
-    redraw(this.object, this.count === 0 ? []
-      : [...this.pins(), ...hasChosen ? [this.rays(n - 1)] : []]);
+    return this.now.length === 0 ? [] : [...this.pins(), ...hasChosen ? [this.rays(n - 1)] : []];
   }
 
   private decision(view: number): Candidate[] {
@@ -142,7 +140,7 @@ export class CandidateMarks {
 
   /** How many were valid, in the words of the replay, and what became of the others. */
   private sum(): (Node | string)[] {
-    const view = this.shownAt - 1;
+    const { view } = this;
     const v = this.flight.data.views;
     const before = this.now.length - v.candidates[view];
     const competed = this.now.filter(({ terms }) => terms).length;
@@ -176,12 +174,8 @@ function pinsOf(all: Candidate[], length: number, dot_px: number, line_px: numbe
     at.x + length * Math.cos(yaw) * Math.cos(pitch),
     at.y + length * Math.sin(yaw) * Math.cos(pitch), at.z - length * Math.sin(pitch)]);
   const colours = all.map((candidate) => colourOf(candidate).toArray());
-  const dots = new three.BufferGeometry().setFromPoints(all.map(({ at }) => at));
-  dots.setAttribute("color", new three.Float32BufferAttribute(colours.flat(), 3));
-  const points = new three.Points(dots, new three.PointsMaterial({ vertexColors: true,
-    size: dot_px, sizeAttenuation: false }));
-  points.frustumCulled = false;
-  return [points, makeTube(ends, colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
+  return [makeDots(all.flatMap(({ at }) => at.toArray()), colours.flat(), dot_px),
+    makeTube(ends, colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
 }
 
 /** Over everything, in that order. */

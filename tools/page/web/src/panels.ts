@@ -74,27 +74,12 @@ export function makeConfiguration(runs: RunData[]): HTMLElement {
   return make("section", {}, make("h2", {}, "Fly it again"),
     ...runs.map((run) => make("div", { class: "card again" },
       runs.length > 1 ? make("span", { class: `chip run-${runs.indexOf(run)}` }, run.label) : null,
-      make("div", { class: "command" }, make("code", {}, run.command), copyButton(run.command)),
+      make("p", {}, make("code", {}, run.command)),
       run.figures ? make("p", { class: "fine" },
         `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,
         make("code", {}, run.figures.result_sha256)) : null,
       make("details", {}, make("summary", {}, "Configuration: scenario.yaml"),
         make("pre", { tabindex: 0 }, run.yaml)))));
-}
-
-function copyButton(text: string): HTMLElement {
-  const button = make("button", { type: "button", class: "small" }, "Copy");
-  button.addEventListener("click", async () => {
-    try {
-      await navigator.clipboard.writeText(text);
-      button.textContent = "Copied";
-    } catch { // no clipboard for a page from a file: selects the command instead
-      getSelection()?.selectAllChildren(button.previousElementSibling!);
-      button.textContent = "Selected";
-    }
-    setTimeout(() => { button.textContent = "Copy"; }, 1600);
-  });
-  return button;
 }
 
 /** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */

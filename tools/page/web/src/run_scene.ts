@@ -7,7 +7,7 @@ import { hairline } from "./colours";
 import type { MeshData } from "./data";
 import { kMarkLayer } from "./depth_shading";
 import { rangeOf, type Flight } from "./flight";
-import { FrustaMark, PathMark, PlanMark, makeSight, redraw } from "./marks";
+import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
 import type { Picked } from "./pick";
 import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
@@ -63,8 +63,7 @@ export class RunScene {
   readonly gridStep_m: number;
   onLoad = () => {}; // of the picture on that surface
   private readonly body: three.Group;
-  private readonly sightMark = new three.Group();
-  private lookedAs = -1; // view
+  private readonly sightMark: SightMark;
   private readonly path: PathMark;
   private layers: Layers = {};
   private others: RunScene[] = [];
@@ -85,8 +84,8 @@ export class RunScene {
     this.runSurface = data.surface && readRunSurface(data.surface, () => this.onLoad());
     this.gridStep_m = gridStep(data.workspace_min, data.workspace_max);
     this.body = makeVehicle(data);
-    this.sightMark.add(...makeSight(data.cameras, this.sightMost_m()));
-    this.vehicle.add(this.body, this.sightMark);
+    this.sightMark = new SightMark(flight, this.sightMost_m());
+    this.vehicle.add(this.body, this.sightMark.object);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.set(-0.5, -0.8, 1.4);
     const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
@@ -176,8 +175,9 @@ export class RunScene {
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
-    if (n > 0) this.lookAs(n - 1);
-    this.sightMark.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
+    // candidates have rays of their own
+    this.sightMark.object.visible = n > 0 && !this.candidates?.object.visible;
+    this.sightMark.show(n);
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.radius_m));
@@ -191,13 +191,6 @@ export class RunScene {
     const range_m = rangeOf(this.flight.data.cameras);
     const length_m = Math.min(range_m, this.sightMost_m());
     return { length_m, isWhole: length_m === range_m };
-  }
-
-  /** What the cameras see at a view, where a gimbal turns them. */
-  private lookAs(view: number) {
-    if (view === this.lookedAs || !this.flight.data.views.T_body_camera) return;
-    this.lookedAs = view;
-    redraw(this.sightMark, makeSight(this.flight.camerasAt(view), this.sightMost_m()));
   }
 
   /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */

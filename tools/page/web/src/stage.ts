@@ -37,7 +37,6 @@ export class Stage {
   private readonly detail = new Detail(() => this.request());
   private isFramed = false;
   private isPrinted = false;
-  private follows = false;
   private readonly pointing: Pointing;
   private axes: Axes[] = []; // of each pane
   private readonly swipe = new Swipe(() => this.invalidate());
@@ -184,19 +183,6 @@ export class Stage {
       pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
   }
 
-  setFollows(follows: boolean) {
-    this.follows = follows;
-    if (follows && this.shown.length > 0) {
-      const pane = this.pane(this.shown[0]);
-      const target = pane.inFirst(this.shown[0].vehicle.position);
-      const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-      this.camera.position.copy(target).addScaledVector(direction, 14 * pane.scale);
-      this.controls.target.copy(target);
-      this.controls.update();
-    }
-    this.invalidate();
-  }
-
   setTheme() {
     this.painter.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
     this.invalidate();
@@ -278,7 +264,6 @@ export class Stage {
     this.painter.fitCanvas(clientWidth, total, ratio);
     const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
-    if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
     for (const axes of this.axes) axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
@@ -287,14 +272,5 @@ export class Stage {
     });
     if (isWhole) this.painter.wait();
     this.detail.drawn(performance.now() - begin);
-  }
-
-  /** Keeps the camera's place beside the first vehicle. */
-  private moveAlong(pxPerTan: number) {
-    const lead = this.shown[0];
-    lead.show(this.clock, this.cameraOf(lead), pxPerTan, false);
-    const step = this.pane(lead).inFirst(lead.vehicle.position).sub(this.controls.target);
-    this.camera.position.add(step);
-    this.controls.target.add(step);
   }
 }
