@@ -17,6 +17,7 @@
 #include "tools/page/page_text.hpp"
 #include "tools/run/plan_jsonl.hpp"
 #include "tools/run/words.hpp"
+#include "tools/scene/looks.hpp"
 
 namespace gnbv {
 namespace {
@@ -363,6 +364,19 @@ TEST_F(ReportTest, CarriesTheSurfaceOfTheRunWhereItHasRoom) {
   const Json large = run_with(9'000'000, head + "\x40\x54\x89\0\x04\0\0\0JSON"s);
   EXPECT_TRUE(large["surface"].is_null());
   EXPECT_NE(large["missing"].dump().find("makes a smaller one"), std::string::npos);
+}
+
+/// WCAG 2's contrast of 3 to 1 against the stage (report.css), by night as by day.
+TEST(PageColours, MarksStandOutFromTheStageAndTheChosenViewFromWhatWasMissed) {
+  const auto brightness = [](std::uint32_t colour) {
+    const Rgb rgb = srgb(colour);
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2] + 0.05;
+  };
+  for (const Look* const look : {&looks::kHull, &looks::kChosen, &looks::kMissed, &looks::kPlan}) {
+    EXPECT_GT(brightness(0xf4f6f9) / brightness(look->light), 3.0) << look->name;
+    EXPECT_GT(brightness(look->dark) / brightness(0x14181e), 3.0) << look->name;
+  }
+  EXPECT_NE(looks::kChosen.light, looks::kMissed.light);
 }
 
 TEST(PageText, NoTextIsMarkup) {

@@ -32,22 +32,27 @@ export function geometryOf(places: Numbers, colours: Numbers | null = null,
   return corners ? geometry.setIndex(corners) : geometry;
 }
 
+/** Of one colour, as many numbers as there are places; else as they are. */
+function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
+  if (typeof colours !== "number") return colours;
+  const rgb = new three.Color(colours).toArray();
+  return Array.from({ length: places.length }, (_, i) => rgb[i % 3]);
+}
+
 /** Thin ones; three numbers an end, of places and, where they are not of one, of colours. */
 export function makeLines(places: Numbers, colours: Numbers | number, opacity = 1) {
-  const isOne = typeof colours === "number";
-  const lines = new three.LineSegments(geometryOf(places, isOne ? null : colours),
-    new three.LineBasicMaterial({ ...isOne ? { color: colours } : { vertexColors: true },
-      transparent: opacity < 1, opacity, depthWrite: opacity > 0.5 }));
+  // all with colours of their own and blended: of one kind, whose shader is compiled once
+  const lines = new three.LineSegments(geometryOf(places, coloursOf(places, colours)),
+    new three.LineBasicMaterial({ vertexColors: true, transparent: true, opacity,
+      depthWrite: opacity > 0.5 }));
   lines.frustumCulled = false;
   return lines;
 }
 
 /** Dots of that size; x y z each, of one colour or r g b each. */
 export function makeDots(places: Numbers, colours: Numbers | number, size: number) {
-  const isOne = typeof colours === "number";
-  const dots = new three.Points(geometryOf(places, isOne ? null : colours),
-    new three.PointsMaterial({ ...isOne ? { color: colours } : { vertexColors: true }, size,
-      sizeAttenuation: false }));
+  const dots = new three.Points(geometryOf(places, coloursOf(places, colours)),
+    new three.PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }));
   dots.frustumCulled = false;
   return dots;
 }
