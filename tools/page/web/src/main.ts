@@ -4,7 +4,7 @@ import type { BelievedKind } from "./believed";
 import { Clock } from "./clock";
 import { runColour, setLooks } from "./colours";
 import { Replay, firstChoice, listenToKeys, makeLayerBar, makeTransport } from "./controls";
-import { make } from "./dom";
+import { make, ofRun } from "./dom";
 import { Flight } from "./flight";
 import { FrameStrip } from "./frame_strip";
 import { legendItems } from "./legend";
@@ -93,7 +93,7 @@ function build() {
   };
   clock.onChange(() => {
     words.replaceChildren(...shownFlights().map((flight) => make("span", {},
-      isAlone ? null : make("span", { class: `dot run-${flight.index}` }),
+      isAlone ? null : ofRun("dot", flight.index),
       panels.readout(flight, clock))));
     strip.show(shownFlights(), clock);
     if (told !== moment()) explain();

@@ -1,7 +1,7 @@
 // Everything that is text, tables and pictures.
 import type { Clock } from "./clock";
 import type { PageData, RunData, Table } from "./data";
-import { make, measure, minutes, number, toggle } from "./dom";
+import { make, measure, minutes, number, ofRun, toggle } from "./dom";
 import type { Flight } from "./flight";
 
 /** A name whose unit no line breaks off. */
@@ -27,8 +27,7 @@ export function makeRunTable(runs: RunData[], shown: Set<number>,
       if (on) shown.add(index); else shown.delete(index);
       change();
     });
-    box.className = `chip run-${index}`;
-    return make("tr", {}, make("th", { scope: "row" }, box), ...heads.map((head) => {
+    return make("tr", {}, make("th", { scope: "row" }, ofRun("chip", index, box)), ...heads.map((head) => {
       const figure = run.key_figures.find(({ name }) => name === head);
       return make("td", { class: "number" }, figure ? measure(figure.value, figure.unit) : "");
     }));
@@ -73,7 +72,7 @@ function withCode(sentence: string): (Node | string)[] {
 export function makeConfiguration(runs: RunData[]): HTMLElement {
   return make("section", {}, make("h2", {}, "Fly it again"),
     ...runs.map((run) => make("div", { class: "card again" },
-      runs.length > 1 ? make("span", { class: `chip run-${runs.indexOf(run)}` }, run.label) : null,
+      runs.length > 1 ? ofRun("chip", runs.indexOf(run), run.label) : null,
       make("p", {}, make("code", {}, run.command)),
       run.figures ? make("p", { class: "fine" },
         `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,

@@ -6,7 +6,7 @@ import { hairline, isDark, onPage, paleInk } from "./colours";
 import type { Plot, PlotChoice } from "./data";
 import { make, number, select, significant } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
-import { fileName, saveText } from "./save";
+import { fileName, saveFile } from "./save";
 
 /** Of figures.schema.json, with numbers as arrays in which NaN is what is not known. */
 interface Axis { label: string; low: number; high: number; ticks: { at: number; text: string }[] }
@@ -118,9 +118,11 @@ class PlotView {
       ...controls),
     ...!main ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
       : [this.place, legend, make("button", { type: "button", class: "small save",
-        title: `${plot.title} as SVG`, click: () => saveText(this.drawn({ where: "file", width: 640,
-          height: 400, left: 64, font: 11, title }), "image/svg+xml", `${fileName(plot.title)}.svg`)
-      }, "SVG")]);
+        title: `${plot.title} as SVG`, click: () => {
+          const svg = this.drawn({ where: "file", width: 640, height: 400, left: 64, font: 11,
+            title });
+          saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
+        } }, "SVG")]);
     for (const kind of ["pointerdown", "pointermove", "pointerleave"] as const) {
       this.place.addEventListener(kind, (event) => this.point(event));
     }

@@ -4,7 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Axes } from "./axes";
 import { isDark } from "./colours";
 import type { Clock } from "./clock";
-import { make } from "./dom";
+import { make, ofRun } from "./dom";
 import { nearestThatSees } from "./camera_fit";
 import { Detail } from "./detail";
 import { Painter } from "./painter";
@@ -13,7 +13,7 @@ import { needsTwoSheets, stageHeight_px } from "./paper";
 import { kAim_px, kPointer_px, listenToClicks, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
 import { kGistRatio, type Layers, type RunScene } from "./run_scene";
-import { savePng } from "./save";
+import { saveFile } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
@@ -103,7 +103,7 @@ export class Stage {
     this.axes = scenes.map(() => new Axes());
     this.labels.replaceChildren(...scenes.map((scene, i) => make("div", { class: "pane" },
       this.scenes.length > 1
-        ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
+        ? ofRun("chip", scene.flight.index, scene.flight.data.label)
         : null, this.axes[i].element)));
     this.resize();
   }
@@ -157,7 +157,7 @@ export class Stage {
   private save() {
     this.detail.insist();
     this.draw(); // in this very task, or the browser would have cleared the canvas
-    savePng(this.canvas, this.name);
+    this.canvas.toBlob((blob) => saveFile(blob, `${this.name}.png`));
   }
 
   private handleKey(event: KeyboardEvent) {
