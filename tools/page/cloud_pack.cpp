@@ -31,22 +31,11 @@ std::vector<std::size_t> ends_of(const RunCloud& cloud) {
   return ends;
 }
 
-/// See VoxelData.
-struct VoxelGrowth {
+page::VoxelData voxels_of_size(const RunCloud& cloud, double size_m, page::Arrays& arrays) {
   std::vector<std::int16_t> index;
   std::vector<std::uint32_t> after;
   std::vector<std::uint32_t> gains;
   std::vector<std::uint32_t> gains_after;
-
-  std::size_t bytes() const {
-    std::size_t bytes = 2 * index.size() + 4 * (after.size() + gains_after.size());
-    for (const std::uint32_t number : gains) bytes += page::bytes_of_number(number);
-    return bytes;
-  }
-};
-
-VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
-  VoxelGrowth out;
   std::unordered_map<std::uint64_t, std::uint32_t> voxel_of_code;
   std::vector<std::uint32_t> gained;   // by voxel, since the last state
   std::vector<std::uint32_t> touched;  // the voxels that gained
@@ -59,7 +48,7 @@ VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
         for (const std::int64_t k : index_of(code)) {
           GNBV_CHECK(std::abs(k) < std::numeric_limits<std::int16_t>::max(), "voxel {} of {} m", k,
                      size_m);
-          out.index.push_back(static_cast<std::int16_t>(k));
+          index.push_back(static_cast<std::int16_t>(k));
         }
         gained.push_back(0);
       }
@@ -68,14 +57,18 @@ VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
     std::sort(touched.begin(), touched.end());
     std::uint32_t before = 0;
     for (const std::uint32_t voxel : touched) {
-      out.gains.insert(out.gains.end(), {voxel - before, std::exchange(gained[voxel], 0)});
+      gains.insert(gains.end(), {voxel - before, std::exchange(gained[voxel], 0)});
       before = voxel;
     }
     touched.clear();
-    out.after.push_back(as_count(gained.size()));
-    out.gains_after.push_back(as_count(out.gains.size()));
+    after.push_back(as_count(gained.size()));
+    gains_after.push_back(as_count(gains.size()));
   }
-  return out;
+  return {.size_m = size_m,
+          .index = arrays.add<3>(index),
+          .after = arrays.add(after),
+          .gains = arrays.add_numbers(gains),
+          .gains_after = arrays.add(gains_after)};
 }
 
 /// Whether the bytes are a binary glTF 2.0 as long as it says, with a JSON chunk within.
@@ -176,16 +169,13 @@ page::CloudData pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, con
 
 page::VoxelData pack_voxels(const RunCloud& cloud, double size_m, std::size_t max_bytes,
                             page::Arrays& arrays) {
-  VoxelGrowth growth = voxel_growth(cloud, size_m);
-  while (growth.bytes() > max_bytes && growth.after.back() > kLeastElements) {
-    size_m *= 2.0;
-    growth = voxel_growth(cloud, size_m);
+  const std::size_t before = arrays.bytes().size();
+  for (;; size_m *= 2.0) {
+    const page::VoxelData voxels = voxels_of_size(cloud, size_m, arrays);
+    const bool fits = arrays.bytes().size() - before <= max_bytes;
+    if (fits || voxels.index.rows <= kLeastElements) return voxels;
+    arrays.cut(before);
   }
-  return {.size_m = size_m,
-          .index = arrays.add<3>(growth.index),
-          .after = arrays.add(growth.after),
-          .gains = arrays.add_numbers(growth.gains),
-          .gains_after = arrays.add(growth.gains_after)};
 }
 
 std::optional<page::Array<std::uint8_t>> pack_surface(const RunRecord& record,

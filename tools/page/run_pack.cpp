@@ -97,7 +97,7 @@ struct RunPacker {
     if (!has_frames(record.folder)) return;
     const FrameRecord frames = read_frames(record.folder);
     FramesSeen seen = look_at_frames(record, frames, cloud, thin.kept, threads, progress);
-    add(frames, std::move(seen.thumbnails), seen.colour);
+    add(frames, seen.thumbnails, seen.colour);
   }
 
   /// Of a run that still flies what its frames show.
@@ -111,24 +111,33 @@ struct RunPacker {
     pack_points();
     std::vector<Rgb8> colour;
     for (const std::size_t i : thin.kept) colour.push_back(seen.colour[i]);
-    add(frames, std::move(seen.thumbnails), colour);
+    add(frames, seen.thumbnails, colour);
   }
 
-  void add(const FrameRecord& frames, std::vector<Thumbnail> thumbnails,
+  void add(const FrameRecord& frames, const std::vector<Thumbnail>& thumbnails,
            std::span<const Rgb8> colour) {
     if (run.cloud) {
       std::vector<std::uint8_t> bytes;
       for (const Rgb8& rgb : colour) bytes.insert(bytes.end(), rgb.begin(), rgb.end());
       run.cloud->colour = arrays.add<3>(bytes);
     }
-    for (const Thumbnail& t : within(std::move(thumbnails), frames, left())) {
-      const RecordedFrame& frame = frames.frames[t.frame];
-      run.frames.push_back({.view = frame.iteration,
-                            .camera = frames.cameras[frame.camera].name,
-                            .width_px = t.width_px,
-                            .height_px = t.height_px,
-                            .jpeg = arrays.add(t.jpeg),
-                            .depth_jpeg = arrays.add(t.depth_jpeg)});
+    // of every view, or of every second, third ... one, with the least step that fits
+    const std::size_t before = arrays.bytes().size();
+    const std::size_t most = before + left();
+    for (int every = 1; every <= static_cast<int>(thumbnails.size()); ++every) {
+      for (const Thumbnail& t : thumbnails) {
+        const RecordedFrame& frame = frames.frames[t.frame];
+        if (frame.iteration % every != 0) continue;
+        run.frames.push_back({.view = frame.iteration,
+                              .camera = frames.cameras[frame.camera].name,
+                              .width_px = t.width_px,
+                              .height_px = t.height_px,
+                              .jpeg = arrays.add(t.jpeg),
+                              .depth_jpeg = arrays.add(t.depth_jpeg)});
+      }
+      if (arrays.bytes().size() <= most) return;
+      arrays.cut(before);
+      run.frames.clear();
     }
   }
 };

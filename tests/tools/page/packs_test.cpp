@@ -68,9 +68,7 @@ TEST(Arrays, EachIsRestoredFromWhereABrowserMayReadIt) {
   const std::size_t before = arrays.bytes().size();
   const page::Numbers packed = arrays.add_numbers(whole);
   EXPECT_EQ(numbers(packed, arrays), Numbers(whole.begin(), whole.end()));
-  std::size_t bytes = 0;
-  for (const std::uint32_t number : whole) bytes += page::bytes_of_number(number);
-  EXPECT_EQ(arrays.bytes().size(), (before + 7) / 8 * 8 + bytes);
+  EXPECT_EQ(arrays.bytes().size(), (before + 7) / 8 * 8 + 1 + 1 + 2 + 2 + 3 + 5);
 }
 
 TEST(Arrays, PointsAreRestoredWithinHalfAStepAndOneHeightExactly) {
@@ -417,6 +415,11 @@ TEST_F(DecisionPack, ARunStaysWithinItsBudget) {
     EXPECT_TRUE(data.cloud && data.voxels && data.path && data.candidates && data.beliefs &&
                 data.surface);
     EXPECT_EQ(data.missing, std::vector<std::string>{});
+    ASSERT_FALSE(data.frames.empty());
+    const int every = data.frames.size() > 1 ? data.frames[1].view : 1;
+    for (std::size_t i = 0; i < data.frames.size(); ++i) {
+      EXPECT_EQ(data.frames[i].view, static_cast<int>(i) * every);
+    }
     // thinned or not, a path begins and ends where it did
     const Numbers time_s = numbers(data.path->time, arrays);
     EXPECT_EQ(time_s.front(), 0.0);
