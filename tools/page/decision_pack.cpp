@@ -115,7 +115,7 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
   std::vector<float> terms;
   std::vector<std::uint32_t> begins;
   for (const Plan& plan : plans) {
-    begins.push_back(as_count(kind.size()));
+    begins.insert(begins.end(), {as_count(kind.size()), as_count(terms.size() / 5)});
     for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
       const Candidate& c = plan.candidates[i];
       points.push_back(c.view.p_world_m.cast<float>());
@@ -129,13 +129,13 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
       }
     }
   }
-  begins.push_back(as_count(kind.size()));
+  begins.insert(begins.end(), {as_count(kind.size()), as_count(terms.size() / 5)});
   const std::size_t before = arrays.bytes().size();
   page::CandidateData out{.points = arrays.add_points(points),
                           .angles = arrays.add<2>(angles),
                           .kind = arrays.add(kind),
                           .terms = arrays.add<5>(terms),
-                          .begins = arrays.add(begins)};
+                          .begins = arrays.add<2>(begins)};
   const std::size_t needed = arrays.bytes().size() - before;
   if (needed <= max_bytes) return out;
   arrays.cut(before);

@@ -154,8 +154,8 @@ struct CandidateData {
   Array<std::uint8_t> kind = {};  // see kValidCandidate
   Array<float, 5> terms = {};     // of those that were not rejected: utility, information, density,
                                   // prediction, distance factor
-  Array<std::uint32_t> begins =
-      {};  // (views + 1): the first one of each view's decision, and the end
+  Array<std::uint32_t, 2> begins = {};  // (views + 1): the first one of each view's decision, and
+                                        // of its terms; and the ends
 };
 GNBV_PAGE_FIELDS(CandidateData, points, angles, kind, terms, begins)
 
@@ -223,6 +223,7 @@ struct RunData {
   std::vector<std::string> missing = {};  // a sentence each
   Vec3d workspace_min{};
   Vec3d workspace_max{};
+  double grid_m = 0.0;  // of lines on the ground: 8 to 20 each way
   bool has_ground = false;
   std::optional<double> profile_end_s = {};
   std::optional<double> views_begin_s = {};
@@ -244,9 +245,9 @@ struct RunData {
   std::vector<FrameData> frames = {};
 };
 GNBV_PAGE_FIELDS(RunData, label, colour, structure, preset, seed, command, yaml, missing,
-                 workspace_min, workspace_max, has_ground, profile_end_s, views_begin_s, mesh,
-                 cameras, rotors, radius_m, views, figures, key_figures, cloud, found, candidates,
-                 beliefs, surface, voxels, path, plan, frames)
+                 workspace_min, workspace_max, grid_m, has_ground, profile_end_s, views_begin_s,
+                 mesh, cameras, rotors, radius_m, views, figures, key_figures, cloud, found,
+                 candidates, beliefs, surface, voxels, path, plan, frames)
 
 struct PageData {
   std::string title = {};

@@ -8,6 +8,7 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/page/packs.hpp"
 #include "tools/run/file_names.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -122,6 +123,8 @@ page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
   run.missing = record.missing;
   run.workspace_min = vec(scenario.workspace_m.min());
   run.workspace_max = vec(scenario.workspace_m.max());
+  const Vec3 extent_m = scenario.workspace_m.sizes();
+  run.grid_m = rounded_down_125(std::max(extent_m.x(), extent_m.y()) / 8.0);
   run.has_ground = has_flat_ground(scenario);
   run.profile_end_s = record.profile_end_s;
   run.views_begin_s = record.views_begin_s;

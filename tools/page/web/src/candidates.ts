@@ -23,21 +23,12 @@ interface Candidate {
 }
 
 export class CandidateMarks extends ViewMark {
-  private readonly termsBefore: Uint32Array; // how many competed before each view's decision
   private view = -1; // whose decision it is
   private now: Candidate[] = [];
 
   /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
-      private readonly data: CandidateData, private readonly missed_m: number) {
-    super();
-    const { begins, kind } = data;
-    this.termsBefore = new Uint32Array(begins.length);
-    for (let view = 0, competed = 0, i = 0; view < begins.length; ++view) {
-      for (; i < begins[view]; ++i) if (kind[i] >= kValid) ++competed;
-      this.termsBefore[view] = competed;
-    }
-  }
+      private readonly data: CandidateData, private readonly missed_m: number) { super(); }
 
   get count() { return this.now.length; } // drawn
 
@@ -52,8 +43,8 @@ export class CandidateMarks extends ViewMark {
   private decision(view: number): Candidate[] {
     const { begins, kind: kinds, points, angles, terms } = this.data;
     const all: Candidate[] = [];
-    let term = this.termsBefore[view];
-    for (let i = begins[view]; i < begins[view + 1]; ++i) {
+    let term = begins[2 * view + 1];
+    for (let i = begins[2 * view]; i < begins[2 * view + 2]; ++i) {
       const kind = kinds[i];
       const at = kind >= kValid ? kTermCount * term++ : -1;
       all.push({ at: new three.Vector3().fromArray(points, 3 * i), kind,

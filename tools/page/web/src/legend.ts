@@ -75,7 +75,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring,
     ...flightItems(scenes, layers, scenes.some((scene) => viewsOf(scene) > 0)),
     ...layers.candidates ? candidateItems(scenes) : [], ...believedItems(scenes),
     make("span", {}, "grid",
-      ...ofEach(scenes, scenes.map(({ gridStep_m }) => measure(number(gridStep_m), "m"))))];
+      ...ofEach(scenes, scenes.map(({ flight }) => measure(number(flight.data.grid_m), "m"))))];
 }
 
 // beside a surface nothing that was measured is drawn

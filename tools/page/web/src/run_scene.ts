@@ -4,7 +4,7 @@ import { BelievedMarks } from "./believed";
 import { CandidateMarks } from "./candidates";
 import type { Clock } from "./clock";
 import { hairline } from "./colours";
-import type { MeshData } from "./data";
+import type { MeshData, RunData } from "./data";
 import { kMarkLayer } from "./depth_shading";
 import { rangeOf, type Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
@@ -25,21 +25,11 @@ export type Layers = Record<string, boolean>;
 /** Of a picture that a line parts: the true structure, the surface made of the run; or all. */
 export type Side = "truth" | "surface" | "all";
 
-/** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
-function gridStep(min: number[], max: number[]): number {
+function makeGround({ workspace_min: min, workspace_max: max, grid_m }: RunData): three.GridHelper {
   const extent = Math.max(max[0] - min[0], max[1] - min[1]);
-  const decade = 10 ** Math.floor(Math.log10(extent / 8));
-  return decade * (extent / 8 >= 5 * decade ? 5 : extent / 8 >= 2 * decade ? 2 : 1);
-}
-
-function makeGround(min: number[], max: number[]): three.GridHelper {
-  const extent = Math.max(max[0] - min[0], max[1] - min[1]);
-  const step = gridStep(min, max);
-  const count = 2 * Math.ceil(extent / step / 2 + 1);
-  const grid = new three.GridHelper(count * step, count, hairline(), hairline());
-  (grid.material as three.Material).transparent = true;
-  (grid.material as three.Material).opacity = 0.95;
-  (grid.material as three.Material).depthWrite = false;
+  const count = 2 * Math.ceil(extent / grid_m / 2 + 1);
+  const grid = new three.GridHelper(count * grid_m, count, hairline(), hairline());
+  Object.assign(grid.material, { transparent: true, opacity: 0.95, depthWrite: false });
   grid.rotation.x = Math.PI / 2; // three's grids lie in x, z
   grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, 0);
   return grid;
@@ -60,7 +50,6 @@ export class RunScene {
   readonly candidates: CandidateMarks | null;
   readonly believed: BelievedMarks | null;
   readonly runSurface: three.Group | null;
-  readonly gridStep_m: number;
   onLoad = () => {}; // of the picture on that surface
   private readonly body: three.Group;
   private readonly sightMark: SightMark;
@@ -82,7 +71,6 @@ export class RunScene {
     this.surface = mesh?.surface && data.found
       ? new TrueSurface(mesh.surface, data.found, flight.count) : null;
     this.runSurface = data.surface && readRunSurface(data.surface, () => this.onLoad());
-    this.gridStep_m = gridStep(data.workspace_min, data.workspace_max);
     this.body = makeVehicle(data);
     this.sightMark = new SightMark(flight, this.sightMost_m());
     this.vehicle.add(this.body, this.sightMark.object);
@@ -93,7 +81,7 @@ export class RunScene {
     this.scene.add(sun, sky);
     const marks = [this.path.object, this.frusta.object, this.vehicle, this.plan?.object,
       this.candidates?.object, this.believed?.object,
-      data.has_ground ? makeGround(data.workspace_min, data.workspace_max) : null];
+      data.has_ground ? makeGround(data) : null];
     for (const part of [this.structure?.object, this.model.voxels, this.runSurface,
       this.splats.object, ...marks]) {
       if (part) this.scene.add(part);
