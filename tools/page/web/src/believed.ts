@@ -37,7 +37,8 @@ export class BelievedMarks extends ViewMark {
   /** Of the decision that chose the last of the first `n` views. */
   protected parts(n: number): three.Object3D[] {
     this.view = n - 1;
-    return kBelievedKinds.map((kind) => this.mesh(kind, this.cells(kind)));
+    return kBelievedKinds.filter((kind) => this.cells(kind).length > 0)
+      .map((kind) => this.mesh(kind, this.cells(kind)));
   }
 
   protected variant() {

@@ -17,7 +17,7 @@ import { StateWriter, readState } from "./permalink";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
 import { fileName } from "./save";
-import { viewsThatSaw } from "./seen_by";
+import { viewsThatSaw } from "./pick";
 import { Stage } from "./stage";
 
 function setRunColours(count: number) {
