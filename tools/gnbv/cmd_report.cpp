@@ -97,7 +97,7 @@ void report(ReportCommandOptions options) {
   Report made;
   {
     ProgressBar bar("report", options.quiet);
-    made = make_report(records, options.report,
+    made = make_report(std::move(records), options.report,
                        [&](double share) { bar.show(share, "reading runs and frames"); });
   }
   for (const std::string& missing : made.missing) say(missing);

@@ -35,7 +35,7 @@ const rect = (x: number, y: number, width: number, height: number, colour: strin
     height.toFixed(1)}" fill="${colour}"/>`;
 const isLanes = (panel: Panel) => panel.series[0]?.mark === "interval";
 const heightOf = (panels: Panel[]) =>
-  kLane * panels.filter(isLanes).reduce((sum, { series }) => sum + series.length, 0);
+  kLane * panels.filter(isLanes).reduce((sum, { y }) => sum + y.high - y.low, 0);
 
 /** A panel between `top` and `bottom` of a picture; its axis below where that is the last one. */
 function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, bottom: number,
@@ -57,17 +57,18 @@ function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, 
           rect(px(one.low[i]), py(one.y[i]) - kLane / 2, px(one.high[i]) - px(one.low[i]),
             kLane - 2, colour(one))).join("") + "</g>";
     }
+    // where each is, and what it is worth there: a step has the value before it, too
+    const corners = known.flatMap((i, k) => [
+      ...k > 0 && one.mark === "steps" ? [[i, known[k - 1]]] : [], [i, i]]);
+    const along = (values: Float64Array) => corners.map(([i, of]) => point(one.x[i], values[of]));
     const band = one.low.length === 0 ? "" : `<polygon fill="${colour(one)}" fill-opacity="0.22" `
-      + `points="${[...known.map((i) => point(one.x[i], one.high[i])),
-        ...known.slice().reverse().map((i) => point(one.x[i], one.low[i]))].join(" ")}"/>`;
-    const ways = one.mark === "level" ? [`M${point(x.low, one.y[0])}H${px(x.high).toFixed(1)}`]
-      : known.map((i, k) => (k > 0 && one.mark === "steps"
-        ? `H${px(one.x[i]).toFixed(1)}V${py(one.y[i]).toFixed(1)}`
-        : `${k > 0 ? "L" : "M"}${point(one.x[i], one.y[i])}`));
+      + `points="${[...along(one.high), ...along(one.low).reverse()].join(" ")}"/>`;
+    const way = one.mark === "level" ? `${point(x.low, one.y[0])}H${px(x.high).toFixed(1)}`
+      : along(one.y).join("L");
     const [endX, endY] = one.end ?? [null, null];
     return `${band}<path fill="none" stroke="${colour(one)}" stroke-width="${
       Math.max(0.8, 1.6 * one.width_pt).toFixed(1)}" stroke-dasharray="${
-      one.dashes.join(" ") || "none"}" d="${ways.join("")}"/>${endX === null || endY === null ? ""
+      one.dashes.join(" ") || "none"}" d="M${way}"/>${endX === null || endY === null ? ""
       : `<circle cx="${px(endX).toFixed(1)}" cy="${py(endY).toFixed(1)}" r="3.5" fill="${
         colour(one)}"/>`}`;
   };
