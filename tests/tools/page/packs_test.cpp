@@ -365,7 +365,8 @@ TEST_F(DecisionPack, HoldsEachCandidateWithItsReasonAndTerms) {
   keep(std::vector{plan, other});
   const auto packed = pack_candidates(record_, 10'000, arrays_);
   ASSERT_TRUE(packed.has_value());
-  EXPECT_EQ(numbers(packed->begins, arrays_), (Numbers{0, 0, 0, 0, 3, 2, 6, 4}));  // the start is no decision
+  EXPECT_EQ(numbers(packed->begins, arrays_),
+            (Numbers{0, 0, 0, 0, 3, 2, 6, 4}));  // the start is no decision
   constexpr auto kCollision = static_cast<double>(Rejection::collision);
   EXPECT_EQ(numbers(packed->kind, arrays_),
             (Numbers{kCollision, page::kChosenCandidate, page::kValidCandidate, kCollision,
