@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <map>
+#include <set>
 
 #include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
@@ -151,6 +152,24 @@ TEST(Thumbnails, APixelIsTheMeanOfTheSquareItReplaces) {
   ASSERT_GT(jpeg.size(), 4U);
   EXPECT_EQ(jpeg[0] << 8U | jpeg[1], 0xffd8);  // start and end of image, ITU T.81 B.1.1.3
   EXPECT_EQ(jpeg[jpeg.size() - 2] << 8U | jpeg.back(), 0xffd9);
+}
+
+TEST(FramesSeen, AreOfEveryNthViewWhereThereIsNoRoomForAll) {
+  TempFolder temp;
+  write_made_run(temp.path());
+  write_made_frames(temp.path());
+  const RunRecord record = read_run(temp.path());
+  std::set<std::vector<int>> all;
+  for (std::size_t bytes = 1'000; bytes < 20'000; bytes += 200) {
+    page::Arrays arrays;
+    page::RunData run;
+    pack_run(
+        record, nullptr, {.bytes = bytes, .points = 1}, 1, [](double) {}, arrays, run);
+    std::vector<int> views;
+    for (const page::FrameData& frame : run.frames) views.push_back(frame.view);
+    all.insert(views);
+  }
+  EXPECT_EQ(all, (std::set<std::vector<int>>{{}, {0}, {0, 2}, {0, 1, 2}}));
 }
 
 /// Of a run that has ended and of one that still flies.
