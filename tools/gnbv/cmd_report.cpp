@@ -14,7 +14,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/live/live_report.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/page/page_parts.hpp"
+#include "tools/page/page_text.hpp"
 #include "tools/page/report.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
@@ -97,7 +97,7 @@ void report(ReportCommandOptions options) {
   Report made;
   {
     ProgressBar bar("report", options.quiet);
-    made = make_report(records, options.report,
+    made = make_report(std::move(records), options.report,
                        [&](double share) { bar.show(share, "reading runs and frames"); });
   }
   for (const std::string& missing : made.missing) say(missing);

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
+
+#include "sim/core/child_process.hpp"
 
 namespace gnbv {
 
@@ -17,5 +20,22 @@ struct LiveReportOptions {
 /// BadInput when the port cannot be had.
 void serve_report(const std::filesystem::path& run, const LiveReportOptions& options,
                   const std::function<void(const std::string& url)>& ready);
+
+/// While it lives, `gnbv report RUN --live PORT` runs beside us, at the lowest priority: it shares
+/// nothing with the mission but the run directory, which it reads, so that no browser can change or
+/// slow the mission. It dies with us, however we die.
+class LiveChild {
+ public:
+  /// Returns when browsers are heard. Throws BadInput when the port cannot be had,
+  /// std::system_error when the system gives no process.
+  LiveChild(const std::filesystem::path& run, int port);
+  ~LiveChild();
+
+  const std::string& url() const { return url_; }
+
+ private:
+  ChildProcess child_;
+  std::string url_;
+};
 
 }  // namespace gnbv

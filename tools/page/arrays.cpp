@@ -35,12 +35,6 @@ Points Arrays::add_points(std::span<const Vec3f> points_m) {
   return out;
 }
 
-std::size_t bytes_of_number(std::uint32_t number) {
-  std::size_t bytes = 1;
-  for (; number >= 128; number >>= 7U) ++bytes;
-  return bytes;
-}
-
 Numbers Arrays::add_numbers(std::span<const std::uint32_t> numbers) {
   std::vector<std::uint8_t> coded;
   for (std::uint32_t number : numbers) {

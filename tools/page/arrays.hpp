@@ -51,15 +51,14 @@ class Arrays {
   Numbers add_numbers(std::span<const std::uint32_t> numbers);
 
   std::span<const std::uint8_t> bytes() const { return bytes_; }
+  /// Takes back what was added since there were so many bytes.
+  void cut(std::size_t bytes) { bytes_.resize(bytes); }
 
  private:
   std::size_t append(const void* data, std::size_t size);
 
   std::vector<std::uint8_t> bytes_;
 };
-
-/// How many bytes add_numbers() takes for a number.
-std::size_t bytes_of_number(std::uint32_t number);
 
 template <typename T>
 constexpr const char* type_name() {

@@ -1,16 +1,19 @@
-// What was measured of the surface: points, the voxels that hold them, the surface made of them.
+// What was measured of the surface: points, the voxels that hold them, the surface made of them;
+// and what of the true one was found.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
 
+#include "bench/score/scored_points.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/parallel.hpp"
 #include "tools/page/packs.hpp"
-#include "tools/page/true_surface.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/scene/error_scale.hpp"
 
@@ -28,22 +31,11 @@ std::vector<std::size_t> ends_of(const RunCloud& cloud) {
   return ends;
 }
 
-/// See VoxelData.
-struct VoxelGrowth {
+page::VoxelData voxels_of_size(const RunCloud& cloud, double size_m, page::Arrays& arrays) {
   std::vector<std::int16_t> index;
   std::vector<std::uint32_t> after;
   std::vector<std::uint32_t> gains;
   std::vector<std::uint32_t> gains_after;
-
-  std::size_t bytes() const {
-    std::size_t bytes = 2 * index.size() + 4 * (after.size() + gains_after.size());
-    for (const std::uint32_t number : gains) bytes += page::bytes_of_number(number);
-    return bytes;
-  }
-};
-
-VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
-  VoxelGrowth out;
   std::unordered_map<std::uint64_t, std::uint32_t> voxel_of_code;
   std::vector<std::uint32_t> gained;   // by voxel, since the last state
   std::vector<std::uint32_t> touched;  // the voxels that gained
@@ -56,7 +48,7 @@ VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
         for (const std::int64_t k : index_of(code)) {
           GNBV_CHECK(std::abs(k) < std::numeric_limits<std::int16_t>::max(), "voxel {} of {} m", k,
                      size_m);
-          out.index.push_back(static_cast<std::int16_t>(k));
+          index.push_back(static_cast<std::int16_t>(k));
         }
         gained.push_back(0);
       }
@@ -65,14 +57,18 @@ VoxelGrowth voxel_growth(const RunCloud& cloud, double size_m) {
     std::sort(touched.begin(), touched.end());
     std::uint32_t before = 0;
     for (const std::uint32_t voxel : touched) {
-      out.gains.insert(out.gains.end(), {voxel - before, std::exchange(gained[voxel], 0)});
+      gains.insert(gains.end(), {voxel - before, std::exchange(gained[voxel], 0)});
       before = voxel;
     }
     touched.clear();
-    out.after.push_back(as_count(gained.size()));
-    out.gains_after.push_back(as_count(out.gains.size()));
+    after.push_back(as_count(gained.size()));
+    gains_after.push_back(as_count(gains.size()));
   }
-  return out;
+  return {.size_m = size_m,
+          .index = arrays.add<3>(index),
+          .after = arrays.add(after),
+          .gains = arrays.add_numbers(gains),
+          .gains_after = arrays.add(gains_after)};
 }
 
 /// Whether the bytes are a binary glTF 2.0 as long as it says, with a JSON chunk within.
@@ -86,7 +82,64 @@ bool is_whole_glb(const std::string& glb) {
   return head[1] == 2 && head[2] == glb.size() && kHead + head[3] <= glb.size();
 }
 
+constexpr double kErrorStep_m = 0.001;
+constexpr std::int64_t kMostIndex = std::numeric_limits<std::int16_t>::max();
+
+bool fits_16_bits(const VoxelSet& codes) {
+  return std::all_of(codes.begin(), codes.end(), [](std::uint64_t code) {
+    const auto index = index_of(code);
+    return std::all_of(index.begin(), index.end(),
+                       [](std::int64_t k) { return -kMostIndex <= k && k < kMostIndex; });
+  });
+}
+
 }  // namespace
+
+TrueVoxels true_voxels(const SurfaceReference& reference, std::size_t max_voxels) {
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    const VoxelSet& codes = reference.outside[size];
+    if (codes.size() <= max_voxels && fits_16_bits(codes)) {
+      return {.size_m = kCoverageSizes_m[size], .codes = codes};
+    }
+  }
+  return {};
+}
+
+std::vector<std::uint16_t> views_until_found(const TrueVoxels& voxels, const RunCloud& cloud) {
+  GNBV_CHECK(cloud.view_points.size() < kNeverFound, "{} views", cloud.view_points.size());
+  std::vector<std::uint16_t> until(voxels.codes.size(), kNeverFound);
+  std::size_t point = 0;
+  std::uint16_t state = 0;
+  for (const std::size_t end : ends_of(cloud)) {
+    for (; point < end; ++point) {
+      const std::uint64_t code = voxel_code(cloud.points_world_m[point], voxels.size_m);
+      const auto voxel = std::lower_bound(voxels.codes.begin(), voxels.codes.end(), code);
+      if (voxel == voxels.codes.end() || *voxel != code) continue;
+      std::uint16_t& found = until[static_cast<std::size_t>(voxel - voxels.codes.begin())];
+      found = std::min(found, state);
+    }
+    ++state;
+  }
+  return until;
+}
+
+std::vector<std::uint8_t> point_errors(const RayScene& scene, std::span<const Vec3f> points_world_m,
+                                       int threads) {
+  constexpr double kMost = kNotOfStructure - 1;
+  std::vector<std::uint8_t> errors(points_world_m.size());
+  const std::vector<std::uint8_t> is_its = points_of_structure(scene, points_world_m, threads);
+  constexpr std::size_t kPoints = 4096;  // a task
+  parallel_for_chunks(
+      threads, points_world_m.size(), kPoints, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const double off_m =
+              scene.distance_to_structure_m(points_world_m[i].cast<double>(), kMost * kErrorStep_m);
+          const double steps = std::min(kMost, std::round(off_m / kErrorStep_m));
+          errors[i] = is_its[i] != 0 ? static_cast<std::uint8_t>(steps) : kNotOfStructure;
+        }
+      });
+  return errors;
+}
 
 page::CloudData pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, const RayScene* scene,
                            int threads, page::Arrays& arrays) {
@@ -116,16 +169,13 @@ page::CloudData pack_cloud(const RunCloud& cloud, const ThinnedPoints& thin, con
 
 page::VoxelData pack_voxels(const RunCloud& cloud, double size_m, std::size_t max_bytes,
                             page::Arrays& arrays) {
-  VoxelGrowth growth = voxel_growth(cloud, size_m);
-  while (growth.bytes() > max_bytes && growth.after.back() > kLeastElements) {
-    size_m *= 2.0;
-    growth = voxel_growth(cloud, size_m);
+  const std::size_t before = arrays.bytes().size();
+  for (;; size_m *= 2.0) {
+    const page::VoxelData voxels = voxels_of_size(cloud, size_m, arrays);
+    const bool fits = arrays.bytes().size() - before <= max_bytes;
+    if (fits || voxels.index.rows <= kLeastElements) return voxels;
+    arrays.cut(before);
   }
-  return {.size_m = size_m,
-          .index = arrays.add<3>(growth.index),
-          .after = arrays.add(growth.after),
-          .gains = arrays.add_numbers(growth.gains),
-          .gains_after = arrays.add(growth.gains_after)};
 }
 
 std::optional<page::Array<std::uint8_t>> pack_surface(const RunRecord& record,

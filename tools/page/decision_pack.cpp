@@ -16,8 +16,6 @@
 namespace gnbv {
 namespace {
 
-constexpr std::size_t kCandidateBytes = 15;
-constexpr std::size_t kTermBytes = 20;  // of a candidate that was not rejected
 constexpr std::size_t kLeastBeliefBytes = 4096;
 constexpr int kMostDoublings = 12;  // a cell of a kilometre, where voxels are of 0.25 m
 
@@ -77,21 +75,11 @@ constexpr std::array<ListKind, 4> kLists = {
      {&page::BeliefData::frontier, &BelievedVoxels::frontier, true},
      {&page::BeliefData::looked_at, &BelievedVoxels::looked_at, false}}};
 
-struct List {
+page::BeliefList pack_list(std::span<const BelievedVoxels> beliefs, const ListKind& kind,
+                           const Lattice& lattice, page::Arrays& arrays) {
   std::vector<std::uint32_t> runs;
   std::vector<std::uint32_t> begins = {0};
   std::vector<std::uint32_t> counts;
-
-  std::size_t bytes() const {
-    std::size_t bytes = 4 * (begins.size() + counts.size());
-    for (const std::uint32_t number : runs) bytes += page::bytes_of_number(number);
-    return bytes;
-  }
-};
-
-List list_of(std::span<const BelievedVoxels> beliefs, const ListKind& kind,
-             const Lattice& lattice) {
-  List list;
   std::vector<VoxelIndex> before;
   for (const BelievedVoxels& view : beliefs) {
     std::vector<VoxelIndex> cells = lattice.cells_of(view.*kind.voxels);
@@ -103,25 +91,16 @@ List list_of(std::span<const BelievedVoxels> beliefs, const ListKind& kind,
     }
     VoxelIndex end = 0;
     for (const VoxelRun& run : runs_of(cells)) {
-      list.runs.insert(list.runs.end(), {run.first - end, run.length});
+      runs.insert(runs.end(), {run.first - end, run.length});
       end = run.first + run.length;
     }
-    list.begins.push_back(as_count(list.runs.size()));
-    list.counts.push_back(as_count(voxel_count(view.*kind.voxels)));
+    begins.push_back(as_count(runs.size()));
+    counts.push_back(as_count(voxel_count(view.*kind.voxels)));
   }
-  return list;
-}
-
-std::vector<List> lists_of(std::span<const BelievedVoxels> beliefs, const Lattice& lattice) {
-  std::vector<List> lists;
-  for (const ListKind& kind : kLists) lists.push_back(list_of(beliefs, kind, lattice));
-  return lists;
-}
-
-std::size_t bytes_of(std::span<const List> lists) {
-  std::size_t bytes = 0;
-  for (const List& list : lists) bytes += list.bytes();
-  return bytes;
+  return {.runs = arrays.add_numbers(runs),
+          .begins = arrays.add(begins),
+          .counts = arrays.add(counts),
+          .has_changes = kind.has_changes};
 }
 
 }  // namespace
@@ -136,7 +115,7 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
   std::vector<float> terms;
   std::vector<std::uint32_t> begins;
   for (const Plan& plan : plans) {
-    begins.push_back(as_count(kind.size()));
+    begins.insert(begins.end(), {as_count(kind.size()), as_count(terms.size() / 5)});
     for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
       const Candidate& c = plan.candidates[i];
       points.push_back(c.view.p_world_m.cast<float>());
@@ -150,21 +129,21 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
       }
     }
   }
-  begins.push_back(as_count(kind.size()));
-  const std::size_t needed = kCandidateBytes * kind.size() + kTermBytes * terms.size() / 5 +
-                             sizeof(std::uint32_t) * begins.size();
-  if (needed > max_bytes) {
-    throw BadInput(
-        fmt::format("{}: {} candidates are too many for the page: {:.1f} MB, {:.1f} MB "
-                    "are left; `gnbv render --what candidates` draws any decision",
-                    (record.folder / kCandidatesFile).string(), grouped(kind.size()),
-                    1e-6 * static_cast<double>(needed), 1e-6 * static_cast<double>(max_bytes)));
-  }
-  return page::CandidateData{.points = arrays.add_points(points),
-                             .angles = arrays.add<2>(angles),
-                             .kind = arrays.add(kind),
-                             .terms = arrays.add<5>(terms),
-                             .begins = arrays.add(begins)};
+  begins.insert(begins.end(), {as_count(kind.size()), as_count(terms.size() / 5)});
+  const std::size_t before = arrays.bytes().size();
+  page::CandidateData out{.points = arrays.add_points(points),
+                          .angles = arrays.add<2>(angles),
+                          .kind = arrays.add(kind),
+                          .terms = arrays.add<5>(terms),
+                          .begins = arrays.add<2>(begins)};
+  const std::size_t needed = arrays.bytes().size() - before;
+  if (needed <= max_bytes) return out;
+  arrays.cut(before);
+  throw BadInput(
+      fmt::format("{}: {} candidates are too many for the page: {:.1f} MB, {:.1f} MB are left; "
+                  "`gnbv render --what candidates` draws any decision",
+                  (record.folder / kCandidatesFile).string(), grouped(kind.size()),
+                  1e-6 * static_cast<double>(needed), 1e-6 * static_cast<double>(max_bytes)));
 }
 
 std::optional<page::BeliefData> pack_beliefs(const RunRecord& record, std::size_t max_bytes,
@@ -174,24 +153,23 @@ std::optional<page::BeliefData> pack_beliefs(const RunRecord& record, std::size_
   const auto beliefs =
       read_beliefs(record.folder, record.views.size(), lattice.voxels.voxel_count());
   if (beliefs.empty()) return std::nullopt;
-  std::vector<List> lists = lists_of(beliefs, lattice);
+  const std::size_t before = arrays.bytes().size();
   const std::size_t most = std::max(max_bytes, kLeastBeliefBytes + 32 * beliefs.size());
-  while (bytes_of(lists) > most && lattice.doublings < kMostDoublings) {
-    ++lattice.doublings;
-    lists = lists_of(beliefs, lattice);
+  for (;; ++lattice.doublings) {
+    page::BeliefData out{.size_m = scenario.planner.map.resolution_m * (1 << lattice.doublings),
+                         .map_m = scenario.planner.map.resolution_m,
+                         .low = lattice.low(),
+                         .cells = lattice.cells()};
+    for (const ListKind& kind : kLists) {
+      const bool is_empty = std::all_of(beliefs.begin(), beliefs.end(), [&](const auto& view) {
+        return (view.*kind.voxels).empty();
+      });
+      if (!is_empty) out.*kind.list = pack_list(beliefs, kind, lattice, arrays);
+    }
+    const bool fits = arrays.bytes().size() - before <= most;
+    if (fits || lattice.doublings == kMostDoublings) return out;
+    arrays.cut(before);
   }
-  page::BeliefData out{.size_m = scenario.planner.map.resolution_m * (1 << lattice.doublings),
-                       .map_m = scenario.planner.map.resolution_m,
-                       .low = lattice.low(),
-                       .cells = lattice.cells()};
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    if (lists[i].runs.empty()) continue;
-    out.*kLists[i].list = page::BeliefList{.runs = arrays.add_numbers(lists[i].runs),
-                                           .begins = arrays.add(lists[i].begins),
-                                           .counts = arrays.add(lists[i].counts),
-                                           .has_changes = kLists[i].has_changes};
-  }
-  return out;
 }
 
 std::string why_no_beliefs(const RunRecord& record) {

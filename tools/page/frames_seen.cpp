@@ -5,7 +5,7 @@
 
 #include "tools/frames/frame_sight.hpp"
 #include "tools/page/jpeg.hpp"
-#include "tools/page/thinning.hpp"
+#include "tools/page/packs.hpp"
 #include "tools/scene/colour.hpp"
 
 namespace gnbv {
@@ -128,25 +128,6 @@ FramesSeen look_at_growing_frames(const RunRecord& record, const FrameRecord& fr
     cloud.view_points.push_back(static_cast<std::size_t>(after - kept.begin()));
   }
   return out;
-}
-
-std::vector<Thumbnail> within(std::vector<Thumbnail> all, const FrameRecord& frames,
-                              std::size_t max_bytes) {
-  constexpr std::size_t kPaddingBytes = 7;  // at most, of an array
-  const auto most = static_cast<int>(frames.frames.size());
-  for (int every = 1; every <= most; ++every) {
-    const auto goes = [&](const Thumbnail& t) {
-      return frames.frames[t.frame].iteration % every != 0;
-    };
-    std::size_t bytes = 0;
-    for (const Thumbnail& t : all) {
-      if (!goes(t)) bytes += t.jpeg.size() + t.depth_jpeg.size() + 2 * kPaddingBytes;
-    }
-    if (bytes > max_bytes) continue;
-    std::erase_if(all, goes);
-    return all;
-  }
-  return {};
 }
 
 }  // namespace gnbv

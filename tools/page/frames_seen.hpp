@@ -50,9 +50,4 @@ FramesSeen look_at_frames(const RunRecord& record, const FrameRecord& frames, co
 FramesSeen look_at_growing_frames(const RunRecord& record, const FrameRecord& frames, int threads,
                                   const ShareDone& progress, RunCloud& cloud);
 
-/// Those of every view, or of every second, third ... one, with the least step that fits; none if
-/// none fit.
-std::vector<Thumbnail> within(std::vector<Thumbnail> all, const FrameRecord& frames,
-                              std::size_t max_bytes);
-
 }  // namespace gnbv

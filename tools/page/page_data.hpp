@@ -21,6 +21,8 @@
 namespace gnbv::page {
 
 using Vec3d = std::array<double, 3>;
+using SceneJson = nlohmann::ordered_json;   // looks_json()
+using FigureJson = nlohmann::ordered_json;  // a figure of figures_json(), its numbers as Arrays
 
 struct Column {
   std::string head = {};
@@ -75,42 +77,28 @@ struct Views {
   Array<double> seconds = {};
   Array<double> metres = {};
   std::vector<std::string> sampler = {};
-  std::vector<std::array<int, 2>> frontier_phases = {};  // in which views were found at frontiers:
-                                                         // how many there were before and after
   Array<std::uint32_t> candidates = {};
   Array<std::uint32_t> valid = {};
   std::optional<Array<double, 16>> T_body_camera = {};  // a row a camera; where a gimbal turns some
 };
-GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, frontier_phases, candidates, valid,
-                 T_body_camera)
+GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, candidates, valid, T_body_camera)
 
 struct Figures {
   std::string termination = {};
-  double straight_m = 0.0;
-  double profile_m = 0.0;
-  double flight_time_s = 0.0;
-  double energy_wh = 0.0;
-  double coverage = 0.0;  // at 0.05 m
-  double f_5cm = 0.0;
-  double density = 0.0;
   std::string version = {};
   std::string result_sha256 = {};
   Array<double> curve = {};  // (views + 1): coverage at 0.05 m
 };
-GNBV_PAGE_FIELDS(Figures, termination, straight_m, profile_m, flight_time_s, energy_wh, coverage,
-                 f_5cm, density, version, result_sha256, curve)
+GNBV_PAGE_FIELDS(Figures, termination, version, result_sha256, curve)
 
-/// Where the paper's mission of the same utility ended.
-struct PaperEnd {
-  std::string label = {};
-  double views = 0.0;
-  std::optional<double> metres = {};
-  std::optional<double> seconds = {};
-  std::optional<Vec3d> coverage_percent = {};
-  std::optional<double> density = {};
-  bool is_doubtful = false;  // the table's notes say why
+/// One of what a run comes down to, as printed.
+struct KeyFigure {
+  std::string name = {};
+  std::string value = {};
+  std::string unit = {};
+  std::string paper = {};  // of the paper's mission of the same utility; may be empty
 };
-GNBV_PAGE_FIELDS(PaperEnd, label, views, metres, seconds, coverage_percent, density, is_doubtful)
+GNBV_PAGE_FIELDS(KeyFigure, name, value, unit, paper)
 
 struct CloudData {
   Points points = {};               // in the order of growth
@@ -166,8 +154,8 @@ struct CandidateData {
   Array<std::uint8_t> kind = {};  // see kValidCandidate
   Array<float, 5> terms = {};     // of those that were not rejected: utility, information, density,
                                   // prediction, distance factor
-  Array<std::uint32_t> begins =
-      {};  // (views + 1): the first one of each view's decision, and the end
+  Array<std::uint32_t, 2> begins = {};  // (views + 1): the first one of each view's decision, and
+                                        // of its terms; and the ends
 };
 GNBV_PAGE_FIELDS(CandidateData, points, angles, kind, terms, begins)
 
@@ -207,54 +195,22 @@ struct FrameData {
 };
 GNBV_PAGE_FIELDS(FrameData, view, camera, width_px, height_px, jpeg, depth_jpeg)
 
-/// A line of a plot, of x and y as one effort measures it. A y that is not known is NaN.
-struct PlotCurve {
-  Array<double> x = {};
-  Array<double> y = {};
-  std::optional<Array<double>> low = {};  // of a band around it
-  std::optional<Array<double>> high = {};
-};
-GNBV_PAGE_FIELDS(PlotCurve, x, y, low, high)
-
-struct PlotSeries {
-  std::string label = {};
-  int run = -1;  // whose it is, with several; of a mean the first one; -1: nobody's
-  std::string colour = {};
-  std::vector<double> dashes = {};
-  bool is_step = false;              // keeps each y until the next x
-  std::array<PlotCurve, 3> by = {};  // views, metres, seconds
-};
-GNBV_PAGE_FIELDS(PlotSeries, label, run, colour, dashes, is_step, by)
-
-/// Where the paper's mission ended.
-struct PlotRing {
-  std::string label = {};  // of the paper's row
-  int run = 0;
-  std::string colour = {};
-  std::array<std::optional<double>, 3> x;  // views, metres, seconds
-  double y = 0.0;
-};
-GNBV_PAGE_FIELDS(PlotRing, label, run, colour, x, y)
-
-/// One of what a plot can show.
+/// One of what a plot can show: figures of figures.schema.json over views, metres and seconds, a
+/// line a run; and, where runs differ in their seeds alone, their means.
 struct PlotChoice {
   std::string label = {};
-  std::string unit = {};
-  std::vector<PlotSeries> series = {};
-  std::vector<PlotSeries> means =
-      {};  // the same, of runs that differ in their seeds alone their mean
-  std::vector<PlotRing> rings = {};
+  std::vector<FigureJson> runs = {};
+  std::vector<FigureJson> means = {};
 };
-GNBV_PAGE_FIELDS(PlotChoice, label, unit, series, means, rings)
+GNBV_PAGE_FIELDS(PlotChoice, label, runs, means)
 
 struct Plot {
   std::string title = {};
   std::string note = {};
   std::string chooses = {};  // what its choices are of
-  int decimals = -1;         // of its values; -1: three digits that count
   std::vector<PlotChoice> choices = {};
 };
-GNBV_PAGE_FIELDS(Plot, title, note, chooses, decimals, choices)
+GNBV_PAGE_FIELDS(Plot, title, note, chooses, choices)
 
 struct RunData {
   std::string label = {};
@@ -267,6 +223,7 @@ struct RunData {
   std::vector<std::string> missing = {};  // a sentence each
   Vec3d workspace_min{};
   Vec3d workspace_max{};
+  double grid_m = 0.0;  // of lines on the ground: 8 to 20 each way
   bool has_ground = false;
   std::optional<double> profile_end_s = {};
   std::optional<double> views_begin_s = {};
@@ -276,8 +233,7 @@ struct RunData {
   double radius_m = 0.0;  // of the vehicle
   Views views = {};
   std::optional<Figures> figures = {};
-  std::optional<double> ceiling = {};  // coverage at 0.05 m that could be reached
-  std::optional<PaperEnd> paper = {};
+  std::vector<KeyFigure> key_figures = {};
   std::optional<CloudData> cloud = {};
   std::optional<Array<std::uint16_t>> found = {};  // see views_until_found()
   std::optional<CandidateData> candidates = {};
@@ -289,15 +245,15 @@ struct RunData {
   std::vector<FrameData> frames = {};
 };
 GNBV_PAGE_FIELDS(RunData, label, colour, structure, preset, seed, command, yaml, missing,
-                 workspace_min, workspace_max, has_ground, profile_end_s, views_begin_s, mesh,
-                 cameras, rotors, radius_m, views, figures, ceiling, paper, cloud, found,
+                 workspace_min, workspace_max, grid_m, has_ground, profile_end_s, views_begin_s,
+                 mesh, cameras, rotors, radius_m, views, figures, key_figures, cloud, found,
                  candidates, beliefs, surface, voxels, path, plan, frames)
 
 struct PageData {
   std::string title = {};
   bool is_live = false;  // served while the mission flies
   std::string version = {};
-  nlohmann::ordered_json scene = {};  // see looks_json()
+  SceneJson scene = {};
   std::vector<Table> tables = {};
   std::vector<Plot> plots = {};
   std::vector<MeshData> meshes = {};

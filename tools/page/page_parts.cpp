@@ -1,6 +1,5 @@
-#include "tools/page/page_parts.hpp"
-
 #include "sim/core/embed.hpp"
+#include "tools/page/page_text.hpp"
 
 namespace gnbv {
 namespace {

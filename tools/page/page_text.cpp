@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
-#include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
 #include "sim/core/text.hpp"
 
@@ -43,25 +43,6 @@ std::string policy_hash(std::string_view text) {
   Sha256 hash;
   hash.add(text);
   return "'sha256-" + base64(hash.digest()) + "'";
-}
-
-std::string filled(std::string_view page, const std::vector<Escape>& values) {
-  std::string out;
-  std::size_t used = 0;
-  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
-    const std::size_t close = page.find("}}", open);
-    GNBV_CHECK(close != std::string_view::npos, "the page's template has an open {{{{");
-    const std::string_view key = page.substr(open + 2, close - open - 2);
-    const auto value =
-        std::find_if(values.begin(), values.end(), [&](const Escape& v) { return v.first == key; });
-    GNBV_CHECK(value != values.end(), "the page's template asks for {}", key);
-    out += page.substr(0, open);
-    out += value->second;
-    page.remove_prefix(close + 2);
-    ++used;
-  }
-  GNBV_CHECK(used == values.size(), "{} values for {} places", values.size(), used);
-  return out += page;
 }
 
 }  // namespace gnbv

@@ -1,12 +1,19 @@
-// Text that goes into a page and stays text there.
+// The page that report.cpp fills, as the build bundled it from tools/page/web, and text that goes
+// into a page and stays text there.
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace gnbv {
+
+/// HTML with {POLICY}, {TITLE}, {STYLE}, {DATA} and {SCRIPT} to be filled in by fmt.
+std::string_view page_template();
+std::string_view page_style();
+std::string_view page_script();
+
+/// Why style and script are empty in this program; empty where they are not.
+std::string_view why_no_page();
 
 /// For element content and quoted attributes.
 std::string html_escaped(std::string_view text);
@@ -16,10 +23,5 @@ std::string script_json(std::string_view json);
 
 /// `'sha256-...'` of an inline script or style, as a Content-Security-Policy names what may run.
 std::string policy_hash(std::string_view text);
-
-/// The template with each {{KEY}} once replaced by its value, in one pass: values are never
-/// searched. Requires every key to be in the template, and no other.
-std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string_view>>& values);
 
 }  // namespace gnbv

@@ -1,21 +1,30 @@
-#include "tools/page/plots.hpp"
-
-#include <fmt/format.h>
-
+// The plots of a page, as figures of tools/figures: the page draws them and computes nothing.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <set>
 
-#include "tools/figures/curves.hpp"
-#include "tools/figures/groups.hpp"
-#include "tools/figures/looks.hpp"
+#include "tools/figures/coverage_levels.hpp"
+#include "tools/figures/drawn_groups.hpp"
+#include "tools/page/report.hpp"
 
 namespace gnbv {
 namespace {
 
+using Json = nlohmann::ordered_json;
+using Values = std::vector<double>;
+/// What a run's line shows over an effort; without entries where nothing was recorded.
+using CurveOf = std::function<StepCurve(const RunRecord&, Effort)>;
+
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRoom = 1.02;  // right of the last view, so that no mark lies on the edge
+constexpr std::array kEfforts = {Effort::views, Effort::metres, Effort::seconds};
+constexpr std::array<const char*, 3> kEffortWords = {
+    "Views", "Metres from the first view on, straight", "Seconds from the first view on"};
 constexpr std::array<const char*, 3> kSizes = {"0.05 m", "0.10 m", "0.50 m"};
+
 struct Term {
   const char* words;
   double Score::*value;
@@ -27,289 +36,225 @@ constexpr std::array<Term, 5> kTerms = {{{"Utility", &Score::value, kUnknown},
                                          {"Prediction", &Score::prediction, 0.0},
                                          {"Distance factor", &Score::distance, 1.0}}};
 
-/// A value after each view, or after the profile and each view.
-using Values = std::vector<double>;
-using Efforts = std::array<Values, 3>;
-using EffortArrays = std::array<page::Array<double>, 3>;
+/// What the first `views` views had taken.
+double spent(const RunRecord& record, Effort effort, std::size_t views) {
+  if (views == 0) return 0.0;
+  const ViewRecord& last = record.views.at(views - 1);
+  return effort == Effort::views    ? static_cast<double>(views)
+         : effort == Effort::metres ? last.straight_m
+                                    : last.time_s - record.views.front().time_s;
+}
 
-/// What a run had taken after the profile and each view.
-Efforts efforts_of(const RunRecord& record) {
-  Efforts efforts = {{{0.0}, {0.0}, {0.0}}};
-  for (const ViewRecord& view : record.views) {
-    efforts[0].push_back(static_cast<double>(efforts[0].size()));
-    efforts[1].push_back(view.straight_m);
-    efforts[2].push_back(view.time_s - record.views.front().time_s);
+/// Of values after each view, or after the profile and each view.
+StepCurve curve_over(const RunRecord& record, Effort effort, Values values) {
+  StepCurve curve{.x = {}, .y = std::move(values)};
+  const std::size_t first = curve.y.size() > record.views.size() ? 0 : 1;
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    curve.x.push_back(spent(record, effort, i + first));
   }
-  return efforts;
+  return curve;
 }
 
-double largest(std::span<const double> values) {
-  double most = 0.0;
-  for (const double value : values)
-    most = std::max(most, std::isnan(value) ? 0.0 : std::abs(value));
-  return most > 0.0 ? most : 1.0;
+StepCurve coverage(const RunRecord& record, Effort effort, std::size_t size) {
+  if (!record.figures) return {};
+  return coverage_steps(*record.figures, effort, kCoverageSizes_m[size]).value_or(StepCurve{});
 }
 
-Values shares(Values values) {
-  const double most = largest(values);
-  for (double& value : values) value /= most;
+StepCurve entropy(const RunRecord& record, Effort effort) {
+  Values values;
+  for (const ViewRecord& view : record.views) values.push_back(view.entropy_nat);
+  if (record.figures && !values.empty()) {
+    values.insert(values.begin(), values.back() + record.figures->entropy_reduction_nat);
+  }
+  return curve_over(record, effort, std::move(values));
+}
+
+StepCurve density(const RunRecord& record, Effort effort) {
+  Values values;
+  for (const ViewRecord& v : record.views) values.push_back(v.density_points_per_voxel);
+  return curve_over(record, effort, std::move(values));
+}
+
+/// A start, or a move that was not chosen among candidates, has no score.
+Values scores(const RunRecord& record, const Term& term) {
+  Values values;
+  for (const ViewRecord& v : record.views) {
+    values.push_back(v.decision.candidates > 0 ? v.decision.score.*term.value : kUnknown);
+  }
   return values;
+}
+
+Values shares_of_largest(Values values) {
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::isnan(v) ? 0.0 : std::abs(v));
+  for (double& value : values) value /= most > 0.0 ? most : 1.0;
+  return values;
+}
+
+/// When views were found at frontiers.
+std::vector<std::array<double, 2>> frontier_spans(const RunRecord& record, Effort effort) {
+  std::vector<std::array<double, 2>> spans;
+  for (const Phase& phase : frontier_phases(record.views)) {
+    spans.push_back({spent(record, effort, static_cast<std::size_t>(phase.first)),
+                     spent(record, effort, static_cast<std::size_t>(phase.last) + 1)});
+  }
+  return spans;
+}
+
+Axis axis_of(const std::vector<Series>& all, const std::string& unit) {
+  Values known;
+  for (const Series& series : all) {
+    for (const Values& values : {series.y, series.low, series.high}) {
+      std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+                   [](double y) { return std::isfinite(y); });
+    }
+  }
+  if (known.empty()) return axis_from(unit, 0.0, 1.0);
+  const auto [low, high] = std::minmax_element(known.begin(), known.end());
+  return axis_around(unit, *low, *high);
 }
 
 class PlotMaker {
  public:
-  PlotMaker(const std::vector<RunRecord>& records, const page::PageData& page,
-            const std::vector<std::array<std::optional<double>, 3>>& ceilings, page::Arrays& arrays)
-      : records_(records),
-        page_(page),
-        ceilings_(ceilings),
-        arrays_(arrays),
-        looks_(line_looks(records)) {
-    for (const RunRecord& record : records) {
-      efforts_.push_back(efforts_of(record));
-      const auto arrays_from = [&](std::ptrdiff_t from) {
-        EffortArrays all;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const Values& x = efforts_.back()[k];
-          all[k] = arrays_.add(Values(x.begin() + from, x.end()));
-        }
-        return all;
-      };
-      x_.push_back({arrays_from(0), arrays_from(1)});
-    }
-    std::vector<std::string> notes;
-    for (const RunGroup& group : group_runs(records, notes)) {
-      if (group.runs.size() < 2) continue;
-      groups_.emplace_back();
-      for (const RunRecord* const run : group.runs) {
-        groups_.back().push_back(static_cast<std::size_t>(run - records.data()));
-      }
-    }
+  PlotMaker(const std::vector<RunRecord>& records, const std::vector<std::string>& labels,
+            page::Arrays& arrays)
+      : records_(records), labels_(labels), arrays_(arrays), looks_(line_looks(records)) {
+    std::vector<std::string> told_by_tables;
+    groups_ = group_runs(records, told_by_tables);
+    has_seeds_ = std::any_of(groups_.begin(), groups_.end(),
+                             [](const RunGroup& group) { return group.runs.size() > 1; });
   }
 
-  page::Plot coverage() {
-    page::Plot plot{.title = "Coverage", .chooses = "Voxel size of the coverage", .decimals = 1};
-    for (std::size_t k = 0; k < kSizes.size(); ++k) {
-      page::PlotChoice choice = choice_of(kSizes[k], "%", true, [&](const RunRecord& record) {
-        Values values;
-        for (const auto& sizes : record.figures ? record.figures->curve.coverage
-                                                : std::vector<std::array<double, 3>>{}) {
-          values.push_back(100.0 * sizes[k]);
-        }
-        return values;
-      });
+  /// A figure an effort: a line a run and, where runs differ in their seeds alone, the means of
+  /// the groups; of coverage with what it is compared with.
+  page::PlotChoice choice(const std::string& label, const std::string& unit, Mark mark,
+                          const CurveOf& curve_of, std::optional<double> voxel_m = {}) {
+    page::PlotChoice choice{.label = label};
+    for (const Effort effort : kEfforts) {
+      FigurePanel panel;
       for (std::size_t run = 0; run < records_.size(); ++run) {
-        const auto& paper = page_.runs[run].paper;
-        if (!paper || !paper->coverage_percent) continue;
-        choice.rings.push_back(ring(run, *paper, (*paper->coverage_percent)[k]));
+        const StepCurve curve = curve_of(records_[run], effort);
+        if (curve.x.empty()) continue;
+        const std::string& name = records_.size() == 1 ? label : labels_[run];
+        panel.series.push_back({.name = name,
+                                .label = name,
+                                .mark = mark,
+                                .look = looks_[run],
+                                .width_pt = kGroupWidth_pt,
+                                .x = curve.x,
+                                .y = curve.y});
       }
-      add_ceilings(k, choice);
-      plot.choices.push_back(std::move(choice));
-    }
-    return is_alone() ? all_sizes(std::move(plot)) : plot;
-  }
-
-  page::Plot entropy() {
-    return one("Entropy of the map", "nat", 0, [](const RunRecord& record) {
-      Values values;
-      for (const ViewRecord& view : record.views) values.push_back(view.entropy_nat);
-      if (record.figures && !values.empty()) {
-        values.insert(values.begin(), values.back() + record.figures->entropy_reduction_nat);
+      choice.runs.push_back(finished(std::move(panel), effort, unit, voxel_m, {}));
+      if (!has_seeds_) continue;
+      std::vector<DrawnGroup> drawn;
+      for (const RunGroup& group : groups_) {
+        std::vector<StepCurve> curves;
+        for (const RunRecord* const run : group.runs) curves.push_back(curve_of(*run, effort));
+        drawn.emplace_back(group.label, group.look, std::move(curves));
       }
-      return values;
-    });
-  }
-
-  page::Plot density() {
-    page::Plot plot = one("Density", "points a voxel", 1, [](const RunRecord& record) {
-      Values values;
-      for (const ViewRecord& v : record.views) values.push_back(v.density_points_per_voxel);
-      return values;
-    });
-    for (std::size_t run = 0; run < records_.size(); ++run) {
-      const auto& paper = page_.runs[run].paper;
-      if (paper && paper->density) {
-        plot.choices[0].rings.push_back(ring(run, *paper, *paper->density));
-      }
-    }
-    return plot;
-  }
-
-  /// Utilities of different formulas have different units: several in one plot are shares of each
-  /// run's largest; and so are all terms of one run beside each other.
-  page::Plot terms() {
-    std::set<std::string> utilities;
-    for (const RunRecord& record : records_) utilities.insert(record.scenario.planner.utility.name);
-    page::Plot plot{.title = "Utility of the chosen views",
-                    .note = "The first view is chosen by nobody: it has no utility",
-                    .chooses = "Term of the utility"};
-    page::PlotChoice all{.label = "All terms", .unit = "share of each term's largest"};
-    for (const Term& term : kTerms) {
-      const auto values_of = [&](const RunRecord& record) {
-        Values values;  // a start, or a move that was not chosen among candidates, has no score
-        for (const ViewRecord& v : record.views) {
-          values.push_back(v.decision.candidates > 0 ? v.decision.score.*term.value : kUnknown);
-        }
-        return values;
-      };
-      const Values first = values_of(records_[0]);
-      if (is_alone() && std::all_of(first.begin(), first.end(), [&](double value) {
-            return std::isnan(value) || value == term.rest;
-          })) {
-        continue;
-      }
-      const bool is_share = utilities.size() > 1;
-      plot.choices.push_back(choice_of(
-          term.words, is_share ? "share of each run's largest" : "", false,
-          [&](const RunRecord& r) { return is_share ? shares(values_of(r)) : values_of(r); }));
-      if (is_alone()) {
-        all.series.push_back(
-            series(0, term.words, look_of_slot(all.series.size()), false, shares(first)));
-      }
-    }
-    if (is_alone()) plot.choices.push_back(std::move(all));
-    return plot;
-  }
-
- private:
-  bool is_alone() const { return records_.size() == 1; }
-
-  static page::PlotSeries line(std::size_t run, const std::string& label, const SeriesLook& look,
-                               bool is_step) {
-    return {.label = label,
-            .run = static_cast<int>(run),
-            .colour = look.colour,
-            .dashes = look.dashes,
-            .is_step = is_step};
-  }
-
-  page::PlotSeries series(std::size_t run, const std::string& label, const SeriesLook& look,
-                          bool is_step, const Values& values) {
-    const EffortArrays& x = x_[run][values.size() > records_[run].views.size() ? 0 : 1];
-    const page::Array<double> y = arrays_.add(values);
-    page::PlotSeries out = line(run, label, look, is_step);
-    for (std::size_t k = 0; k < 3; ++k) out.by[k] = {.x = x[k], .y = y};
-    return out;
-  }
-
-  /// A line a run that has values, and one a group of seeds.
-  template <typename ValuesOf>
-  page::PlotChoice choice_of(const std::string& label, const std::string& unit, bool is_step,
-                             const ValuesOf& values_of) {
-    page::PlotChoice choice{.label = label, .unit = unit};
-    std::vector<Values> all;
-    for (std::size_t run = 0; run < records_.size(); ++run) {
-      all.push_back(values_of(records_[run]));
-      if (all.back().empty()) continue;
-      choice.series.push_back(series(run, is_alone() ? label : page_.runs[run].label, looks_[run],
-                                     is_step, all.back()));
-    }
-    for (const std::vector<std::size_t>& group : groups_) {
-      if (std::any_of(group.begin(), group.end(), [&](auto run) { return all[run].empty(); })) {
-        continue;
-      }
-      choice.means.push_back(mean_of_runs(group, all, is_step));
+      FigurePanel means;
+      std::vector<std::string> notes;
+      add_groups(drawn, mark, means, notes);
+      choice.means.push_back(finished(std::move(means), effort, unit, voxel_m, notes));
     }
     return choice;
   }
 
-  /// The mean as figures have it, within the range of the runs.
-  page::PlotSeries mean_of_runs(const std::vector<std::size_t>& group,
-                                const std::vector<Values>& all, bool is_step) {
-    std::string label = page_.runs[group[0]].label;
-    if (const auto seed = label.rfind(", seed "); seed != std::string::npos) label.resize(seed);
-    page::PlotSeries out = line(group[0], fmt::format("{}: mean of {} seeds", label, group.size()),
-                                looks_[group[0]], is_step);
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::vector<StepCurve> curves;
-      for (const std::size_t run : group) {
-        const Values& x = efforts_[run][k];
-        curves.push_back(
-            {{x.end() - static_cast<std::ptrdiff_t>(all[run].size()), x.end()}, all[run]});
+ private:
+  /// A figure of figures.schema.json whose numbers lie in the page's block; without a panel where
+  /// nothing was recorded.
+  Json finished(FigurePanel panel, Effort effort, const std::string& unit,
+                std::optional<double> voxel_m, const std::vector<std::string>& notes) {
+    Figure figure{.name = "", .kind = "coverage", .notes = notes};
+    if (!panel.series.empty()) {
+      if (voxel_m && !groups_.empty()) {
+        const std::vector<Series> levels = coverage_levels(groups_, *voxel_m);
+        panel.series.insert(panel.series.end(), levels.begin(), levels.end());
       }
-      const MeanCurve mean = mean_curve(curves);
-      Values y, low, high;
-      for (std::size_t i = 0; i < mean.x.size(); ++i) {
-        Values there;
-        for (const StepCurve& curve : curves) there.push_back(curve.at(mean.x[i]));
-        y.push_back(mean.y[i].mean);
-        low.push_back(*std::min_element(there.begin(), there.end()));
-        high.push_back(*std::max_element(there.begin(), there.end()));
+      double end = 1e-6;
+      for (const RunRecord& run : records_)
+        end = std::max(end, spent(run, effort, run.views.size()));
+      panel.x = axis_from(kEffortWords[static_cast<std::size_t>(effort)], 0.0, kRoom * end);
+      panel.y = axis_of(panel.series, unit);
+      if (records_.size() == 1) {
+        panel.shades = {"frontier views (FVS)", frontier_spans(records_[0], effort)};
+      } else if (voxel_m) {
+        add_lanes(effort, panel.x, figure.panels);
       }
-      out.by[k] = {.x = arrays_.add(mean.x),
-                   .y = arrays_.add(y),
-                   .low = arrays_.add(low),
-                   .high = arrays_.add(high)};
+      figure.panels.push_back(std::move(panel));
     }
-    return out;
-  }
-
-  template <typename ValuesOf>
-  page::Plot one(const std::string& title, const std::string& unit, int decimals,
-                 const ValuesOf& values_of) {
-    return {
-        .title = title, .decimals = decimals, .choices = {choice_of(title, unit, true, values_of)}};
-  }
-
-  page::PlotRing ring(std::size_t run, const page::PaperEnd& paper, double y) const {
-    return {.label = paper.label,
-            .run = static_cast<int>(run),
-            .colour = looks_[run].colour,
-            .x = {paper.views, paper.metres, paper.seconds},
-            .y = y};
-  }
-
-  /// What could be reached at a voxel size, each once, as far as it is known.
-  void add_ceilings(std::size_t size, page::PlotChoice& choice) {
-    std::set<double> known;
-    for (const auto& shares : ceilings_) {
-      if (shares[size]) known.insert(100.0 * *shares[size]);
-    }
-    const SeriesLook look = {"#667080", {5, 4}};
-    for (const double percent : known) {
-      page::PlotSeries level{.label = fmt::format("ceiling, {}", kSizes[size]),
-                             .run = -1,
-                             .colour = look.colour,
-                             .dashes = look.dashes,
-                             .is_step = true};
-      for (std::size_t k = 0; k < 3; ++k) {
-        double end = 0.0;
-        for (const Efforts& efforts : efforts_) end = std::max(end, efforts[k].back());
-        level.by[k] = {.x = arrays_.add(Values{0.0, end}), .y = arrays_.add(Values(2, percent))};
-      }
-      choice.series.push_back(level);
-      choice.means.push_back(level);
-    }
-  }
-
-  /// Of one run in one plot, with the ceiling that tables name.
-  static page::Plot all_sizes(page::Plot plot) {
-    page::PlotChoice all{.label = "", .unit = "%"};
-    for (std::size_t k = 0; k < plot.choices.size(); ++k) {
-      for (page::PlotSeries& series : plot.choices[k].series) {
-        if (series.run < 0 && k > 0) continue;
-        if (series.run >= 0) series.colour = look_of_slot(k).colour;
-        if (series.run >= 0) series.dashes = {};
-        all.series.push_back(std::move(series));
-      }
-      for (page::PlotRing& ring : plot.choices[k].rings) {
-        ring.colour = look_of_slot(k).colour;
-        all.rings.push_back(std::move(ring));
+    Json json = Json::parse(figures_json(std::span(&figure, 1)))["figures"][0];
+    for (Json& of_panel : json["panels"]) {
+      for (Json& series : of_panel["series"]) {
+        for (const char* const name : {"x", "y", "low", "high"}) pack(series[name]);
       }
     }
-    plot.choices = {std::move(all)};
-    return plot;
+    return json;
+  }
+
+  /// When each of several runs chose frontier views, in lanes above the curves, which no curve
+  /// enters.
+  void add_lanes(Effort effort, const Axis& x, std::vector<FigurePanel>& panels) const {
+    FigurePanel lanes{.x = x, .y = {.label = "FVS: when each run chose frontier views"}};
+    for (std::size_t run = 0; run < records_.size(); ++run) {
+      Series lane{.name = labels_[run], .mark = Mark::interval, .look = looks_[run]};
+      for (const auto& [begin, end] : frontier_spans(records_[run], effort)) {
+        lane.x.push_back(0.5 * (begin + end));
+        lane.y.push_back(-0.5 - static_cast<double>(lanes.series.size()));
+        lane.low.push_back(begin);
+        lane.high.push_back(end);
+      }
+      if (!lane.x.empty()) lanes.series.push_back(std::move(lane));
+    }
+    if (lanes.series.empty()) return;
+    lanes.y.low = -static_cast<double>(lanes.series.size());
+    lanes.y.high = 0.0;
+    lanes.y.ticks = {{0.5 * lanes.y.low, "FVS"}};
+    panels.push_back(std::move(lanes));
+  }
+
+  /// Each list of numbers once: over metres and seconds the y are the same.
+  void pack(Json& numbers) {
+    const auto [entry, is_new] = packed_.try_emplace(numbers.dump());
+    if (is_new) {
+      Values values;
+      for (const Json& number : numbers)
+        values.push_back(number.is_null() ? kUnknown : double(number));
+      entry->second = arrays_.add(values);
+    }
+    numbers = entry->second;
   }
 
   const std::vector<RunRecord>& records_;
-  const page::PageData& page_;
-  const std::vector<std::array<std::optional<double>, 3>>& ceilings_;
+  const std::vector<std::string>& labels_;
   page::Arrays& arrays_;
   std::vector<SeriesLook> looks_;
-  std::vector<Efforts> efforts_;
-  std::vector<std::array<EffortArrays, 2>> x_;  // a run's, from the profile and from view 1 on
-  std::vector<std::vector<std::size_t>> groups_;
+  std::vector<RunGroup> groups_ = {};
+  bool has_seeds_ = false;
+  std::map<std::string, page::Array<double>> packed_ = {};
 };
+
+/// Utilities of different formulas have different units: several in one plot are shares of each
+/// run's largest.
+std::vector<page::PlotChoice> choices_of_terms(const std::vector<RunRecord>& records,
+                                               PlotMaker& make) {
+  std::set<std::string> utilities;
+  for (const RunRecord& record : records) utilities.insert(record.scenario.planner.utility.name);
+  const bool is_share = utilities.size() > 1;
+  std::vector<page::PlotChoice> choices;
+  for (const Term& term : kTerms) {
+    const Values first = scores(records[0], term);
+    const auto says_nothing = [&](double v) { return std::isnan(v) || v == term.rest; };
+    if (records.size() == 1 && std::all_of(first.begin(), first.end(), says_nothing)) continue;
+    choices.push_back(make.choice(
+        term.words, is_share ? "share of each run's largest" : "", Mark::line,
+        [&](const RunRecord& record, Effort effort) {
+          const Values values = scores(record, term);
+          return curve_over(record, effort, is_share ? shares_of_largest(values) : values);
+        }));
+  }
+  return choices;
+}
 
 }  // namespace
 
@@ -319,11 +264,25 @@ std::vector<SeriesLook> line_looks(const std::vector<RunRecord>& records) {
   return method_looks(methods);
 }
 
-std::vector<page::Plot> plots_of(const std::vector<RunRecord>& records, const page::PageData& page,
-                                 const std::vector<std::array<std::optional<double>, 3>>& ceilings,
-                                 page::Arrays& arrays) {
-  PlotMaker make(records, page, ceilings, arrays);
-  return {make.coverage(), make.entropy(), make.density(), make.terms()};
+std::vector<page::Plot> plots_of(const std::vector<RunRecord>& records,
+                                 const std::vector<std::string>& labels, page::Arrays& arrays) {
+  PlotMaker make(records, labels, arrays);
+  page::Plot covered{.title = "Coverage", .chooses = "Voxel size of the coverage"};
+  for (std::size_t size = 0; size < kSizes.size(); ++size) {
+    covered.choices.push_back(make.choice(
+        kSizes[size], "%", Mark::steps,
+        [&](const RunRecord& record, Effort effort) { return coverage(record, effort, size); },
+        kCoverageSizes_m[size]));
+  }
+  return {std::move(covered),
+          {.title = "Entropy of the map",
+           .choices = {make.choice("Entropy", "nat", Mark::steps, entropy)}},
+          {.title = "Density",
+           .choices = {make.choice("Density", "points a voxel", Mark::steps, density)}},
+          {.title = "Utility of the chosen views",
+           .note = "The first view is chosen by nobody: it has no utility",
+           .chooses = "Term of the utility",
+           .choices = choices_of_terms(records, make)}};
 }
 
 }  // namespace gnbv

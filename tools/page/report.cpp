@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
@@ -11,11 +12,8 @@
 #include "sim/core/text.hpp"
 #include "tools/figures/groups.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/page/page_parts.hpp"
+#include "tools/page/packs.hpp"
 #include "tools/page/page_text.hpp"
-#include "tools/page/plots.hpp"
-#include "tools/page/run_pack.hpp"
-#include "tools/page/structures.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/words.hpp"
 #include "tools/scene/looks.hpp"
@@ -30,8 +28,9 @@ constexpr std::size_t kMaxPoints = 500'000;  // of one run
 constexpr std::size_t kAllPoints = 800'000;
 constexpr std::size_t kLeastRunBytes = 200'000;  // where names and views alone fill the page
 
-/// Of a page of `kMaxReportBytes`, for each run: what text and structures leave, in equal shares.
-RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_bytes) {
+/// Of a page of `kMaxReportBytes`, for each run: what text, structures and plots leave, in equal
+/// shares.
+RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t packed_bytes) {
   std::size_t text = page_template().size() + page_style().size() + page_script().size();
   for (const RunRecord& record : records) {
     std::error_code ignored;
@@ -40,99 +39,74 @@ RunBudget budget_of(const std::vector<RunRecord>& records, std::size_t mesh_byte
   }
   // base64 makes four bytes of three
   const std::size_t blocks = (kMaxReportBytes - std::min(kMaxReportBytes, text)) / 4 * 3;
-  const std::size_t bytes = (blocks - std::min(blocks, mesh_bytes)) / records.size();
+  const std::size_t bytes = (blocks - std::min(blocks, packed_bytes)) / records.size();
   return {.bytes = std::max(kLeastRunBytes, bytes),
           .points = std::min(kMaxPoints, kAllPoints / records.size())};
 }
 
-/// Names of scenarios as a heading: "Power plant" of "power_plant".
-std::string as_heading(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
-    name[0] = static_cast<char>(name[0] - 'a' + 'A');
-  }
-  return name;
-}
-
-/// A run that was scored, with the coverage that could be reached where an earlier command found
-/// it.
-struct ScoredRun {
-  const RunRecord* record = nullptr;
-  std::optional<Ceiling> ceiling = {};
+/// Runs of one scenario and structure that were scored.
+struct TableRuns {
+  std::vector<const RunRecord*> records;
+  std::optional<Ceiling> ceiling;  // of all; none where theirs differ: a column has one meaning
 };
 
-/// That of all runs; none where theirs differ: then a column has no one meaning.
-std::optional<Ceiling> shared_ceiling(std::span<const ScoredRun> runs) {
-  const std::optional<Ceiling>& first = runs.front().ceiling;
-  const bool is_shared = std::all_of(runs.begin(), runs.end(), [&](const ScoredRun& run) {
-    return run.ceiling && first && run.ceiling->leaf_outside[0] == first->leaf_outside[0];
-  });
-  return is_shared ? first : std::nullopt;
-}
-
-/// Runs of one scenario and structure, beside the paper's figures only where the structure is the
-/// paper's.
-TextTable table_of(std::span<const ScoredRun> scored) {
-  std::vector<const RunRecord*> records;
-  for (const ScoredRun& run : scored) records.push_back(run.record);
+/// Beside the paper's figures only where structure and setting are the paper's.
+TextTable table_of(const TableRuns& of) {
   std::vector<std::string> notes;
-  const std::vector<RunGroup> groups = group_runs(records, notes);
+  const std::vector<RunGroup> groups = group_runs(of.records, notes);
   const std::vector<std::string> labels = setting_labels(groups);
   std::vector<RunFigures> runs;
   std::vector<std::string> settings;
+  bool has_papers = false;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (const RunRecord* const record : groups[i].runs) {
       runs.push_back(*record->figures);
       settings.push_back(labels[i]);
+      has_papers = has_papers || has_papers_setting(record->scenario);
     }
   }
   const std::string& scenario = runs.at(0).scenario;
   const std::string& structure = runs.at(0).structure;
   const PaperTable* const paper = find_paper_table(scenario);
-  const std::string title = as_heading(
-      structure == scenario ? scenario : fmt::format("{}, structure {}", scenario, structure));
+  const std::string title = structure == scenario
+                                ? human_name(scenario)
+                                : fmt::format("{}, structure {}", human_name(scenario), structure);
   const PaperTable none{
       .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
   const bool is_of_structure = paper != nullptr && is_papers_structure(*paper, structure);
-  const bool is_papers =
-      is_of_structure && std::any_of(records.begin(), records.end(), [](const RunRecord* record) {
-        return has_papers_setting(record->scenario);
-      });
-  const std::optional<Ceiling> ceiling = shared_ceiling(scored);
-  const PaperTable& beside = is_papers ? *paper : none;
+  const PaperTable& beside = is_of_structure && has_papers ? *paper : none;
   for (RunFigures& run : runs) {
     if (name_in_table(beside, run.utility) == run.utility) run.utility = human_name(run.utility);
   }
-  TextTable table = comparison_table(beside, runs, ceiling, settings);
-  if (is_papers) {
+  TextTable table = comparison_table(beside, runs, of.ceiling, settings);
+  if (&beside == paper) {
     table.notes.emplace_back(
         "entropy reduction: the paper does not say whether voxels at a clamping bound count, ours "
         "do not; its amounts are not to be compared with ours");
-  }
-  if (is_of_structure && !is_papers) {
+  } else if (is_of_structure) {
     table.notes.push_back(fmt::format("without the paper's rows: {}", kOtherSetting));
   }
   table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   return table;
 }
 
-/// A table a scenario and structure, of the runs that were scored.
 std::vector<page::Table> tables_of(const std::vector<RunRecord>& records,
                                    const std::vector<std::optional<Ceiling>>& ceilings) {
-  std::vector<std::vector<ScoredRun>> groups;
+  std::map<std::pair<std::string, std::string>, std::size_t> numbers;
+  std::vector<TableRuns> all;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const RunRecord& record = records[i];
-    if (!record.figures || record.figures->curve.coverage.empty()) continue;
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& runs) {
-      const RunFigures& first = *runs.front().record->figures;
-      return first.scenario == record.figures->scenario &&
-             first.structure == record.figures->structure;
-    });
-    if (group == groups.end()) group = groups.emplace(groups.end());
-    group->push_back({&record, ceilings[i]});
+    const std::optional<RunFigures>& figures = records[i].figures;
+    if (!figures || figures->curve.coverage.empty()) continue;
+    const auto [entry, is_new] =
+        numbers.try_emplace({figures->scenario, figures->structure}, all.size());
+    if (is_new) all.push_back({.records = {}, .ceiling = ceilings[i]});
+    TableRuns& table = all[entry->second];
+    table.records.push_back(&records[i]);
+    const auto share = [](const auto& of) { return of ? of->leaf_outside[0] : 0.0; };
+    if (share(table.ceiling) != share(ceilings[i])) table.ceiling.reset();
   }
   std::vector<page::Table> tables;
-  for (const auto& group : groups) tables.push_back(page_table(table_of(group)));
+  for (const TableRuns& table : all) tables.push_back(page_table(table_of(table)));
   return tables;
 }
 
@@ -162,15 +136,6 @@ std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure*
   scored.leaf_outside[0] = *record.figures->ceiling;
   scored.is_given = true;
   return scored;
-}
-
-/// By voxel size; nothing for those of which it is not known.
-std::array<std::optional<double>, 3> shares_of(const std::optional<Ceiling>& ceiling) {
-  std::array<std::optional<double>, 3> shares{};
-  for (std::size_t k = 0; ceiling && k < shares.size(); ++k) {
-    if (ceiling->leaf_outside[k] > 0.0) shares[k] = ceiling->leaf_outside[k];
-  }
-  return shares;
 }
 
 /// Without the backticks that mark it in a sentence: the page gives it a place of its own.
@@ -210,7 +175,7 @@ page::Table page_table(const TextTable& table) {
   return out;
 }
 
-Report make_report(const std::vector<RunRecord>& records, const ReportOptions& options,
+Report make_report(std::vector<RunRecord> records, const ReportOptions& options,
                    const ShareDone& progress) {
   GNBV_CHECK(!records.empty() && records.size() <= kMaxReportRuns, "{} runs", records.size());
   GNBV_CHECK(page_script().find("</script") == std::string_view::npos, "the script ends itself");
@@ -223,9 +188,16 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
   const std::vector<std::string> labels = run_labels(records);
   const std::vector<SeriesLook> looks = line_looks(records);
   Structures structures = pack_structures(records, options.threads, arrays);
-  const RunBudget budget = budget_of(records, arrays.bytes().size());
   std::vector<std::optional<Ceiling>> ceilings;
-  std::vector<std::array<std::optional<double>, 3>> shares;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const KnownStructure* const known = structures.of_run[i].known.get();
+    ceilings.push_back(ceiling_of(records[i], known, options.threads));
+    std::optional<RunFigures>& figures = records[i].figures;
+    if (figures && ceilings[i]) figures->ceiling = ceilings[i]->leaf_outside[0];
+  }
+  page.tables = tables_of(records, ceilings);
+  page.plots = plots_of(records, labels, arrays);
+  const RunBudget budget = budget_of(records, arrays.bytes().size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     const RunRecord& record = records[i];
     const Structures::OfRun& structure = structures.of_run[i];
@@ -241,27 +213,20 @@ Report make_report(const std::vector<RunRecord>& records, const ReportOptions& o
     run.colour = looks[i].colour;
     run.mesh = structure.number;
     run.command = bare_command_to_fly_again(record.folder, run.frames.empty() ? "" : "--frames");
-    ceilings.push_back(ceiling_of(record, structure.known.get(), options.threads));
-    shares.push_back(shares_of(ceilings.back()));
-    run.ceiling = shares.back()[0];
     const auto known = static_cast<std::ptrdiff_t>(record.missing.size());
     report.missing.insert(report.missing.end(), run.missing.begin() + known, run.missing.end());
   }
-  page.tables = tables_of(records, ceilings);
-  page.plots = plots_of(records, page, shares, arrays);
   page.meshes = std::move(structures.meshes);
   // names may hold anything, also what is no UTF-8
   const std::string json = nlohmann::ordered_json(page).dump(
       -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   report.policy = policy(options.is_live);
-  report.html =
-      filled(page_template(),
-             {{"POLICY", report.policy},
-              {"TITLE", html_escaped(page.title)},
-              {"STYLE", page_style()},
-              {"DATA", data_element("arrays", "application/octet-stream", base64(arrays.bytes())) +
-                           data_element("data", "application/json", script_json(json))},
-              {"SCRIPT", page_script()}});
+  report.html = fmt::format(
+      fmt::runtime(page_template()), fmt::arg("POLICY", report.policy),
+      fmt::arg("TITLE", html_escaped(page.title)), fmt::arg("STYLE", page_style()),
+      fmt::arg("DATA", data_element("arrays", "application/octet-stream", base64(arrays.bytes())) +
+                           data_element("data", "application/json", script_json(json))),
+      fmt::arg("SCRIPT", page_script()));
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/compare/text_table.hpp"
+#include "tools/figures/looks.hpp"
 #include "tools/frames/frame_sight.hpp"
 #include "tools/page/page_data.hpp"
 #include "tools/run/run_record.hpp"
@@ -33,8 +34,15 @@ struct Report {
 /// what the text of the page leaves; the runs share it. The same bytes for the same runs, at any
 /// number of threads. Needs no network, and forbids itself any. `progress` gets the share done.
 /// Requires 1 to kMaxReportRuns records. Files that are missing or damaged are left out and named.
-Report make_report(const std::vector<RunRecord>& records, const ReportOptions& options,
+Report make_report(std::vector<RunRecord> records, const ReportOptions& options,
                    const ShareDone& progress);
+
+/// Coverage, entropy, density and the terms of the chosen views, of runs with those labels.
+std::vector<page::Plot> plots_of(const std::vector<RunRecord>& records,
+                                 const std::vector<std::string>& labels, page::Arrays& arrays);
+
+/// Of each run's lines, by its method.
+std::vector<SeriesLook> line_looks(const std::vector<RunRecord>& records);
 
 /// A table as the page has it, without columns of dashes alone.
 page::Table page_table(const TextTable& table);

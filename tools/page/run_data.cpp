@@ -1,13 +1,14 @@
-// run_data() of run_pack.hpp: names, figures and views.
+// Names, figures and views of a run.
 #include <algorithm>
 
 #include "bench/compare/paper_figures.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
-#include "tools/figures/curves.hpp"
+#include "sim/core/text.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/page/run_pack.hpp"
+#include "tools/page/packs.hpp"
 #include "tools/run/file_names.hpp"
+#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -51,9 +52,6 @@ page::Views views_of(const RunRecord& record, page::Arrays& arrays) {
   for (const ViewRecord& view : record.views) {
     views.sampler.emplace_back(traits_of(view.decision.sampler).name);
   }
-  for (const Phase& phase : frontier_phases(record.views)) {
-    views.frontier_phases.push_back({phase.first, phase.last + 1});
-  }
   if (!gimbal_of(record.scenario.cameras)) return views;
   std::vector<double> mountings;  // of all cameras, as the gimbal had them
   for (const ViewRecord& v : record.views) {
@@ -71,33 +69,46 @@ page::Figures figures_of(const RunFigures& f, page::Arrays& arrays) {
   std::vector<double> curve;
   for (const auto& sizes : f.curve.coverage) curve.push_back(sizes[0]);
   return {.termination = f.termination,
-          .straight_m = f.straight_m,
-          .profile_m = f.before.profile_m,
-          .flight_time_s = f.flight_time_s,
-          .energy_wh = f.energy_wh,
-          .coverage = f.coverage_final[0],
-          .f_5cm = f.distances.at[1].f,
-          .density = f.density_points_per_voxel,
           .version = f.version,
           .result_sha256 = f.result_sha256,
           .curve = arrays.add(curve)};
 }
 
-std::optional<page::PaperEnd> paper_of(const RunRecord& record) {
-  if (!record.figures || !has_papers_setting(record.scenario)) return std::nullopt;
+/// The paper's mission of the same utility, in its setting; none where it has none.
+const PaperRow* papers_row(const RunRecord& record) {
+  if (!record.figures || !has_papers_setting(record.scenario)) return nullptr;
   const PaperTable* const paper = find_paper_table(record.scenario.name);
-  if (paper == nullptr || !is_papers_structure(*paper, record.figures->structure)) return {};
-  const PaperRow* const row = find_row(*paper, record.scenario.planner.utility.name);
-  if (row == nullptr || !row->iterations) return std::nullopt;
-  page::PaperEnd end{.label = std::string(row->label),
-                     .views = static_cast<double>(*row->iterations),
-                     .metres = row->distance_m,
-                     .seconds = row->time_min,
-                     .coverage_percent = row->coverage_percent,
-                     .density = row->density_points_per_voxel,
-                     .is_doubtful = is_doubtful(*row)};
-  if (end.seconds) *end.seconds *= 60.0;
-  return end;
+  if (paper == nullptr || !is_papers_structure(*paper, record.figures->structure)) return nullptr;
+  return find_row(*paper, record.scenario.planner.utility.name);
+}
+
+std::vector<page::KeyFigure> key_figures(const RunRecord& record) {
+  const PaperRow* const paper = papers_row(record);
+  const PaperRow beside = paper == nullptr ? PaperRow{} : *paper;
+  std::vector<page::KeyFigure> all;
+  const auto add = [&](const char* name, double value, int decimals, const char* unit,
+                       std::optional<double> papers = {}, const char* mark = "") {
+    all.push_back(
+        {name, grouped(value, decimals), unit, papers ? grouped(*papers, decimals) + mark : ""});
+  };
+  if (const auto& f = record.figures) {
+    const auto& covered = beside.coverage_percent;
+    add("Coverage, 0.05 m", 100.0 * f->coverage_final[0], 1, "%",
+        covered ? std::optional((*covered)[0]) : std::nullopt, is_doubtful(beside) ? "†" : "");
+    if (f->ceiling) add("Of the ceiling", 100.0 * f->coverage_final[0] / *f->ceiling, 1, "%");
+    add("F at 0.05 m", 100.0 * f->distances.at[1].f, 1, "%");
+  }
+  add("Views", static_cast<double>(record.views.size()), 0, "", beside.iterations);
+  const double flown_m = record.views.empty() ? 0.0 : record.views.back().straight_m;
+  add("View to view", record.figures ? record.figures->straight_m : flown_m, 1, "m",
+      beside.distance_m);
+  if (const auto& f = record.figures) {
+    add("Profile flight", f->before.profile_m, 1, "m");
+    add("Density", f->density_points_per_voxel, 1, "a voxel", beside.density_points_per_voxel);
+    add("Flight with profile", f->flight_time_s / 60.0, 1, "min");
+    add("Energy", f->energy_wh, 1, "Wh");
+  }
+  return all;
 }
 
 }  // namespace
@@ -112,6 +123,8 @@ page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
   run.missing = record.missing;
   run.workspace_min = vec(scenario.workspace_m.min());
   run.workspace_max = vec(scenario.workspace_m.max());
+  const Vec3 extent_m = scenario.workspace_m.sizes();
+  run.grid_m = rounded_down_125(std::max(extent_m.x(), extent_m.y()) / 8.0);
   run.has_ground = has_flat_ground(scenario);
   run.profile_end_s = record.profile_end_s;
   run.views_begin_s = record.views_begin_s;
@@ -128,7 +141,7 @@ page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
   run.radius_m = scenario.vehicle.airframe.hull_radius_m;
   run.views = views_of(record, arrays);
   if (record.figures) run.figures = figures_of(*record.figures, arrays);
-  run.paper = paper_of(record);
+  run.key_figures = key_figures(record);
   return run;
 }
 

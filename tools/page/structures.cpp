@@ -1,12 +1,10 @@
-#include "tools/page/structures.hpp"
-
 #include <map>
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/page/thinning.hpp"
+#include "tools/page/packs.hpp"
 
 namespace gnbv {
 namespace {
@@ -52,6 +50,15 @@ std::shared_ptr<KnownStructure> known_structure(const Scenario& scenario, std::s
   return known;
 }
 
+/// int16 (n, 3): the voxel covers [index, index + 1) * size.
+std::vector<std::int16_t> voxel_indices(const TrueVoxels& voxels) {
+  std::vector<std::int16_t> indices;
+  for (const std::uint64_t code : voxels.codes) {
+    for (const std::int64_t k : index_of(code)) indices.push_back(static_cast<std::int16_t>(k));
+  }
+  return indices;
+}
+
 /// None where the run was flown around another one.
 Structures::OfRun as_flown(const Structures::OfRun& structure, const RunRecord& record) {
   try {
@@ -62,26 +69,16 @@ Structures::OfRun as_flown(const Structures::OfRun& structure, const RunRecord& 
   }
 }
 
-}  // namespace
-
-page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::Arrays& arrays) {
-  const auto bytes_of = [](const TriangleMesh& m) {
-    return 12 * m.faces.size() + 6 * m.vertices_m.size() + 8 * (m.materials.size() + 1);
-  };
-  TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);
-  while (bytes_of(small) > max_bytes && small.faces.size() > kFewFaces) {
-    small = with_fewer_faces(mesh, small.faces.size() / 4 * 3);
-  }
-  page::MeshData out{.vertices = arrays.add_points(small.vertices_m),
-                     .all_faces = mesh.faces.size()};
-  std::vector<std::vector<std::uint32_t>> corners(small.materials.size());
-  for (std::size_t i = 0; i < small.faces.size(); ++i) {
-    auto& of_part = corners[material_of(small, i)];
-    of_part.insert(of_part.end(), small.faces[i].begin(), small.faces[i].end());
+page::MeshData pack_whole(const TriangleMesh& mesh, page::Arrays& arrays) {
+  page::MeshData out{.vertices = arrays.add_points(mesh.vertices_m)};
+  std::vector<std::vector<std::uint32_t>> corners(mesh.materials.size());
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    auto& of_part = corners[material_of(mesh, i)];
+    of_part.insert(of_part.end(), mesh.faces[i].begin(), mesh.faces[i].end());
   }
   for (std::size_t m = 0; m < corners.size(); ++m) {
     if (corners[m].empty()) continue;
-    const Material& material = small.materials[m];
+    const Material& material = mesh.materials[m];
     page::MeshPart part{.rgb = {}, .corners = arrays.add<3>(corners[m])};
     for (std::size_t k = 0; k < 3; ++k) {
       const bool is_plain = material.pattern == Pattern::plain;
@@ -90,6 +87,20 @@ page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::
     out.parts.push_back(part);
   }
   return out;
+}
+
+}  // namespace
+
+page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::Arrays& arrays) {
+  const std::size_t before = arrays.bytes().size();
+  for (TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);;
+       small = with_fewer_faces(mesh, small.faces.size() / 4 * 3)) {
+    page::MeshData out = pack_whole(small, arrays);
+    out.all_faces = mesh.faces.size();
+    const bool fits = arrays.bytes().size() - before <= max_bytes;
+    if (fits || small.faces.size() <= kFewFaces) return out;
+    arrays.cut(before);
+  }
 }
 
 Structures pack_structures(const std::vector<RunRecord>& records, int threads,

@@ -1,5 +1,3 @@
-#include "tools/page/thinning.hpp"
-
 #include <algorithm>
 #include <set>
 #include <unordered_map>
@@ -7,6 +5,7 @@
 
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
+#include "tools/page/packs.hpp"
 
 namespace gnbv {
 namespace {

@@ -67,12 +67,12 @@ inline constexpr Look kProfile{"profile", "profile", "profile flight", 0x5b6878,
 inline constexpr Look kPlan{"plan", "plan", "still planned", 0x0a8f8a, 0x49d6cf};
 /// Neither of the path's colours nor of the rotors'.
 inline constexpr Look kCamera{"camera", "vehicle", "what the cameras see", 0x00735a, 0x49c39f};
-inline constexpr Look kHull{"hull", "vehicle", "vehicle", 0x23282f};
+inline constexpr Look kHull{"hull", "vehicle", "vehicle", 0x23282f, 0xaab4c2};
 inline constexpr Look kFrontRotors{"front_rotors", "vehicle", "front rotors", 0xe8731a};
 inline constexpr Look kRearRotors{"rear_rotors", "vehicle", "rear rotors", 0x4a5360, 0x9aa7b8};
 
 // one decision
-inline constexpr Look kChosen{"chosen", "candidates", "chosen view", 0xd5420a, 0xff7a3d};
+inline constexpr Look kChosen{"chosen", "candidates", "chosen view", 0x0057ff, 0x5b96ff};
 inline constexpr Look kViewBefore{"view_before", "candidates", "view before", 0x14181e, 0xf4f6f9};
 inline constexpr Look kRayFree{"ray_free", "candidates", "ray through free", 0x9aa5b3, 0x75808e};
 inline constexpr Look kRayUnknown{"ray_unknown", "candidates", "through unknown", 0xe69f00};

@@ -1,6 +1,6 @@
 // Laws of --live: browsers change nothing of the mission, the page grows with it, and the server
 // answers only what it should.
-// usage: node live_test.mjs GNBV CHROMIUM      in an empty folder
+// usage: in_browser.sh node live_test.mjs GNBV
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { request } from "node:http";
 import { connect } from "node:net";
 import { Browser } from "../page/browser.mjs";
 
-const [gnbv, chromium] = process.argv.slice(2);
+const gnbv = process.argv[2];
 const kViews = 40;
 const fly = (out, ...more) => ["run", "smoke", "--seed", "1", "--threads", "1", "--out", out,
   "--set", `planner.termination.max_iterations=${kViews}`, ...more];
@@ -117,7 +117,7 @@ mkdirSync("growing");
 copyFileSync("alone/scenario.yaml", "growing/scenario.yaml");
 grow(3);
 const growing = await start(["report", "growing", "--live", "0"]);
-const browser = await Browser.open(chromium, 800, 600);
+const browser = await Browser.open(process.env.CHROMIUM, 800, 600);
 try {
   const complaints = [];
   browser.listen((event, parameters) => {

@@ -1,8 +1,8 @@
 // The law of a program that was built without the bundle: it says why. The parts are those that
 // this folder's CMakeLists.txt writes.
-#include "tools/page/page_parts.hpp"
-
 #include <gtest/gtest.h>
+
+#include "tools/page/page_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -11,7 +11,7 @@ TEST(PageParts, WithoutTheBundleTheReasonIsThere) {
   EXPECT_EQ(why_no_page(), "npm is missing");
   EXPECT_EQ(page_script(), "");
   EXPECT_EQ(page_style(), "");
-  EXPECT_NE(page_template().find("{{SCRIPT}}"), std::string_view::npos);
+  EXPECT_NE(page_template().find("{SCRIPT}"), std::string_view::npos);
 }
 
 }  // namespace

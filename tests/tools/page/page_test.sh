@@ -1,20 +1,9 @@
 #!/usr/bin/env bash
 # Short missions, one of a tour, some with hostile names, their reports, and a browser.
-# usage: page_test.sh GNBV      exit: 0 as it should be, 1 not, 77 no Chromium or no npm
+# usage: in_browser.sh page_test.sh GNBV
 set -euo pipefail
 gnbv=$1
 here=$(cd "$(dirname "$0")" && pwd)
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
-  echo "page_test.sh: no Chromium: skipped" >&2
-  exit 77
-}
-command -v npm >/dev/null || {
-  echo "page_test.sh: no npm, hence no page: skipped" >&2
-  exit 77
-}
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder"
 
 evil='<img src=x onerror=window.hacked=1>'
 for utility in proposed tour; do
@@ -45,11 +34,11 @@ cp -R seed1 again
 "$gnbv" run lab_model --quiet --frames --candidates --out lab \
   --set planner.termination.max_iterations=7 >/dev/null
 "$gnbv" report lab --quiet -o lab.html >/dev/null
-layers() { node "$here/page_layers_test.mjs" "$chromium" "$@"; }
+layers() { node "$here/page_layers_test.mjs" "$CHROMIUM" "$@"; }
 layers equal.html seed1 again
 layers lab.html lab
 layers seeds.html seed1 seed2
 for test in page_test page_layers_test; do
-  node "$here/$test.mjs" "$chromium" one.html "${evil}proposed"
-  node "$here/$test.mjs" "$chromium" two.html "${evil}proposed" "${evil}tour"
+  node "$here/$test.mjs" "$CHROMIUM" one.html "${evil}proposed"
+  node "$here/$test.mjs" "$CHROMIUM" two.html "${evil}proposed" "${evil}tour"
 done

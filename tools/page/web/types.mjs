@@ -6,7 +6,7 @@ const kArrays = { "std::uint8_t": "Uint8Array<ArrayBuffer>", "std::int16_t": "In
   "std::uint16_t": "Uint16Array", "std::uint32_t": "Uint32Array", float: "Float32Array",
   double: "Float64Array" };
 const kPlain = { "std::string": "string", bool: "boolean", int: "number", double: "number",
-  "std::size_t": "number", "std::uint64_t": "number", "nlohmann::ordered_json": "SceneData",
+  "std::size_t": "number", "std::uint64_t": "number", SceneJson: "SceneData", FigureJson: "Figure",
   Vec3d: "[number, number, number]", Points: "Float32Array", Numbers: "Uint32Array" };
 const text = readFileSync(process.argv[2], "utf8");
 const structs = [...text.matchAll(
@@ -22,7 +22,8 @@ function typeOf(cpp) {
   throw new Error(`${process.argv[2]}: no type of the page: ${cpp}`);
 }
 
-console.log("// Made of page_data.hpp by types.mjs.\nimport type { SceneData } from './colours';");
+console.log("// Made of page_data.hpp by types.mjs.\nimport type { SceneData } from './colours';\n"
+  + "import type { Figure } from './plots';");
 for (const [, name, body, named, list] of structs) {
   const fields = [...body.matchAll(/^  ([\w:<>, ]+?) (\w+)(?:\s*=[^;]*|\{\})?;/gm)];
   const names = list.split(",").map((field) => field.trim());

@@ -3,6 +3,7 @@
 import * as three from "three";
 import { colourOf } from "./colours";
 import type { BeliefData } from "./data";
+import { ViewMark, geometryOf } from "./marks";
 import type { Layers } from "./run_scene";
 
 export type BelievedKind = "unknown" | "predicted" | "frontier" | "looked_at";
@@ -18,13 +19,11 @@ const kWidths: Record<BelievedKind, number> = { unknown: 1, predicted: 0.8, fron
 // upper ends along x, y, z.
 const kFaces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
-export class BelievedMarks {
-  readonly object = new three.Group();
+export class BelievedMarks extends ViewMark {
   private layers: Layers = {};
-  private shownAt = "";
   private view = -1; // whose decision it is
 
-  constructor(private readonly data: BeliefData) {}
+  constructor(private readonly data: BeliefData) { super(); }
 
   has(layer: string) {
     return kBelievedKinds.some((kind) => this.data[kind] && kLayers[kind] === layer);
@@ -36,19 +35,14 @@ export class BelievedMarks {
   }
 
   /** Of the decision that chose the last of the first `n` views. */
-  show(n: number) {
-    const { unknown, predicted, frontiers } = this.layers;
-    const state = [n, unknown, predicted, frontiers].join();
-    if (state === this.shownAt || !this.object.visible) return;
-    this.shownAt = state;
+  protected parts(n: number): three.Object3D[] {
     this.view = n - 1;
-    for (const part of this.object.children) (part as three.Mesh).geometry.dispose();
-    this.object.clear();
-    for (const kind of kBelievedKinds) {
-      const cells = this.cells(kind);
-      if (cells.length > 0) this.object.add(this.mesh(kind, cells));
-    }
-    this.object.traverse((part) => { part.layers.mask = this.object.layers.mask; });
+    return kBelievedKinds.filter((kind) => this.cells(kind).length > 0)
+      .map((kind) => this.mesh(kind, this.cells(kind)));
+  }
+
+  protected variant() {
+    return kBelievedKinds.map((kind) => Number(this.layers[kLayers[kind]])).join("");
   }
 
   /** Voxels of the map, of each kind that is shown. */
@@ -108,10 +102,8 @@ export class BelievedMarks {
         order.push(first, first + 1, first + 2, first, first + 2, first + 3);
       });
     }
-    const geometry = new three.BufferGeometry();
-    geometry.setAttribute("position", new three.Float32BufferAttribute(corners, 3));
-    geometry.setIndex(order);
-    const mesh = new three.Mesh(geometry, new three.MeshLambertMaterial({ flatShading: true,
+    const mesh = new three.Mesh(geometryOf(corners, null, order), new three.MeshLambertMaterial({
+      flatShading: true,
       color: colourOf(kind), transparent: isGhost, opacity: isGhost ? 0.25 : 1,
       depthWrite: !isGhost }));
     mesh.frustumCulled = false;

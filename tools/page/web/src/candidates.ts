@@ -4,8 +4,8 @@ import { colourOf, hex, isDark, onPage, ramp, rampGradient, reason } from "./col
 import type { CandidateData } from "./data";
 import { make, number, significant } from "./dom";
 import { rangeOf, type Flight } from "./flight";
-import { makeLines, makeTube, redraw } from "./marks";
-import { validWords } from "./panels";
+import { ViewMark, makeDots, makeLines, makeTube } from "./marks";
+import { tableOf, validWords } from "./panels";
 import type { Model } from "./surfaces";
 
 const kValid = 254; // of a candidate's kind, see page_data.hpp
@@ -22,40 +22,29 @@ interface Candidate {
   terms: Float32Array | null; // of those that competed
 }
 
-export class CandidateMarks {
-  readonly object = new three.Group();
-  count = 0; // drawn
-  private readonly termsBefore: Uint32Array; // how many competed before each view's decision
-  private shownAt = -1;
+export class CandidateMarks extends ViewMark {
+  private view = -1; // whose decision it is
   private now: Candidate[] = [];
 
   /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
-      private readonly data: CandidateData, private readonly missed_m: number) {
-    const { begins, kind } = data;
-    this.termsBefore = new Uint32Array(begins.length);
-    for (let view = 0, competed = 0, i = 0; view < begins.length; ++view) {
-      for (; i < begins[view]; ++i) if (kind[i] >= kValid) ++competed;
-      this.termsBefore[view] = competed;
-    }
-  }
+      private readonly data: CandidateData, private readonly missed_m: number) { super(); }
+
+  get count() { return this.now.length; } // drawn
 
   /** The decision that chose the last of the first `n` views. */
-  show(n: number) {
-    if (n === this.shownAt || !this.object.visible) return;
-    this.shownAt = n;
+  protected parts(n: number): three.Object3D[] {
+    this.view = n - 1;
     this.now = n > 0 ? this.decision(n - 1) : [];
-    this.count = this.now.length;
     const hasChosen = this.now.some(({ kind }) => kind === kChosen);
-    redraw(this.object, this.count === 0 ? []
-      : [...this.pins(), ...hasChosen ? [this.rays(n - 1)] : []]);
+    return this.now.length === 0 ? [] : [...this.pins(), ...hasChosen ? [this.rays(n - 1)] : []];
   }
 
   private decision(view: number): Candidate[] {
     const { begins, kind: kinds, points, angles, terms } = this.data;
     const all: Candidate[] = [];
-    let term = this.termsBefore[view];
-    for (let i = begins[view]; i < begins[view + 1]; ++i) {
+    let term = begins[2 * view + 1];
+    for (let i = begins[2 * view]; i < begins[2 * view + 2]; ++i) {
       const kind = kinds[i];
       const at = kind >= kValid ? kTermCount * term++ : -1;
       all.push({ at: new three.Vector3().fromArray(points, 3 * i), kind,
@@ -142,7 +131,7 @@ export class CandidateMarks {
 
   /** How many were valid, in the words of the replay, and what became of the others. */
   private sum(): (Node | string)[] {
-    const view = this.shownAt - 1;
+    const { view } = this;
     const v = this.flight.data.views;
     const before = this.now.length - v.candidates[view];
     const competed = this.now.filter(({ terms }) => terms).length;
@@ -159,18 +148,14 @@ export class CandidateMarks {
     if (this.now.length === 0) return make("p", { class: "fine" }, "No decision chose this view.");
     const best = this.now.filter((candidate) => candidate.terms)
       .sort((a, b) => b.terms![0] - a.terms![0]).slice(0, kBest);
-    const head = ["", "Utility", "Information", "Density", "Prediction", "Distance factor"];
     const row = (candidate: Candidate, rank: number) => make("tr",
       { class: candidate.kind === kChosen ? "ours" : "" },
       make("td", {}, candidate.kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`),
       ...Array.from(candidate.terms!, (value) => make("td", { class: "number" },
         significant(value))));
-    return make("div", {},
-      make("p", { class: "fine" }, ...this.sum()),
-      best.length === 0 ? "" : make("div", { class: "card scroll" }, make("table", {},
-        make("thead", {}, make("tr", {}, ...head.map((name, i) =>
-          make("th", { scope: "col", class: i > 0 ? "number" : "" }, name)))),
-        make("tbody", {}, ...best.map(row)))));
+    return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
+      best.length === 0 ? "" : tableOf("", ["", "Utility", "Information", "Density", "Prediction",
+        "Distance factor"], (column) => column > 0, best.map(row)));
   }
 }
 
@@ -180,12 +165,8 @@ function pinsOf(all: Candidate[], length: number, dot_px: number, line_px: numbe
     at.x + length * Math.cos(yaw) * Math.cos(pitch),
     at.y + length * Math.sin(yaw) * Math.cos(pitch), at.z - length * Math.sin(pitch)]);
   const colours = all.map((candidate) => colourOf(candidate).toArray());
-  const dots = new three.BufferGeometry().setFromPoints(all.map(({ at }) => at));
-  dots.setAttribute("color", new three.Float32BufferAttribute(colours.flat(), 3));
-  const points = new three.Points(dots, new three.PointsMaterial({ vertexColors: true,
-    size: dot_px, sizeAttenuation: false }));
-  points.frustumCulled = false;
-  return [points, makeTube(ends, colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
+  return [makeDots(all.flatMap(({ at }) => at.toArray()), colours.flat(), dot_px),
+    makeTube(ends, colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
 }
 
 /** Over everything, in that order. */

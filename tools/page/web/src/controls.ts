@@ -186,7 +186,6 @@ export function makeLayerBar(scenes: RunScene[], stage: Stage, chosen: Chosen,
         stage.colour(by);
         changed();
       }),
-      toggle("Follow", false, (on) => stage.setFollows(on)),
       make("button", { type: "button", class: "small", click: () => stage.frame(),
         title: "Show everything that is shown; a double click does it, too" }, "Fit"),
       ...stage.buttons()));

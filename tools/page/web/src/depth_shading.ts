@@ -2,8 +2,10 @@
 // a cloud without normals its shape (Boucheny 2009). Lines and other marks are drawn afterwards, or
 // each would wear a dark halo.
 import * as three from "three";
+import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
 
-const kVertex = `
+/** Of what fills the picture. */
+export const kFullVertex = `
 varying vec2 vAt;
 void main() { vAt = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 
@@ -65,13 +67,11 @@ export class DepthShading {
   private readonly whole = DepthShading.makeTarget(4);
   private readonly quick = DepthShading.makeTarget(0);
   private readonly material: three.ShaderMaterial;
-  private readonly quad: three.Mesh;
-  private readonly screen = new three.OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  private readonly quad: FullScreenQuad;
 
   constructor() {
     this.material = new three.ShaderMaterial({
-      vertexShader: kVertex,
-      fragmentShader: kFragment,
+      vertexShader: kFullVertex, fragmentShader: kFragment,
       depthFunc: three.AlwaysDepth, // brings the surfaces' depths along, for the marks
       uniforms: {
         uColour: { value: this.whole.texture },
@@ -85,8 +85,7 @@ export class DepthShading {
         uSun: { value: new three.Vector3() },
       },
     });
-    this.quad = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
-    this.quad.frustumCulled = false;
+    this.quad = new FullScreenQuad(this.material);
   }
 
   private static makeTarget(samples: number) {
@@ -123,7 +122,7 @@ export class DepthShading {
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
     renderer.clear();
-    renderer.render(this.quad, this.screen);
+    this.quad.render(renderer);
     camera.layers.set(kMarkLayer);
     renderer.render(scene, camera);
   }

@@ -16,6 +16,13 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A label ("chip") or a mark ("dot") in the colour of a run, by its number on the page. */
+export function ofRun(kind: "chip" | "dot", run: number, ...children: Child[]): HTMLElement {
+  const element = make("span", { class: kind }, ...children);
+  element.style.setProperty("--run", `var(--run-${run})`);
+  return element;
+}
+
 /** A bar of colours with what its ends and its middle stand for under it, and their unit. */
 export function colourBar(colours: string, what: string, [low, middle, high]: string[],
     unit: string): HTMLElement {

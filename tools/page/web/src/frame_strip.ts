@@ -27,11 +27,8 @@ export class FrameStrip {
   }
 }
 
-/** Of the scenarios' own cameras as people write them: "RGBD camera down", "ZED Mini". */
-function cameraName(name: string): string {
-  return name.replaceAll("_", " ").replace(/^rgbd\b/, "RGBD camera")
-    .replace(/^zed mini\b/, "ZED Mini");
-}
+const cameraName = (name: string) => name.replaceAll("_", " ").replace(/^rgbd\b/, "RGBD camera")
+  .replace(/^zed mini\b/, "ZED Mini");
 
 /** What the cameras saw at a view; nothing where it was not kept. */
 export function figuresOf({ data }: Flight, view: number, before = ""): HTMLElement[] {

@@ -1,7 +1,7 @@
 // What everything in the 3D view means, in words beside its colour.
 import { kBelievedKinds } from "./believed";
 import { hex, look, rampGradient, type RampName } from "./colours";
-import { colourBar, make, measure, number, type Child } from "./dom";
+import { colourBar, make, measure, number, ofRun, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import { ofVoxels, type Colouring } from "./surfaces";
 
@@ -22,9 +22,12 @@ const orderItem = (first: string, last: string) =>
 /** One text where all runs have the same, else each run's beside the colour of the run. */
 function ofEach(scenes: RunScene[], texts: string[]): Child[] {
   if (new Set(texts).size === 1) return [` ${texts[0]}`];
-  return scenes.map(({ flight }, i) => make("span", { class: "each" }, make("span", {
-    class: `dot run-${flight.index}`, role: "img", "aria-label": flight.data.label }),
-  ` ${texts[i]}`));
+  return scenes.map(({ flight: { index, data } }, i) => {
+    const dot = ofRun("dot", index);
+    dot.role = "img";
+    dot.ariaLabel = data.label;
+    return make("span", { class: "each" }, dot, ` ${texts[i]}`);
+  });
 }
 
 /** A bar with what it stands for under it, or where runs differ in that each run's ends. */
@@ -72,7 +75,7 @@ export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring,
     ...flightItems(scenes, layers, scenes.some((scene) => viewsOf(scene) > 0)),
     ...layers.candidates ? candidateItems(scenes) : [], ...believedItems(scenes),
     make("span", {}, "grid",
-      ...ofEach(scenes, scenes.map(({ gridStep_m }) => measure(number(gridStep_m), "m"))))];
+      ...ofEach(scenes, scenes.map(({ flight }) => measure(number(flight.data.grid_m), "m"))))];
 }
 
 // beside a surface nothing that was measured is drawn

@@ -4,7 +4,7 @@ import type { BelievedKind } from "./believed";
 import { Clock } from "./clock";
 import { runColour, setLooks } from "./colours";
 import { Replay, firstChoice, listenToKeys, makeLayerBar, makeTransport } from "./controls";
-import { make } from "./dom";
+import { make, ofRun } from "./dom";
 import { Flight } from "./flight";
 import { FrameStrip } from "./frame_strip";
 import { legendItems } from "./legend";
@@ -17,7 +17,7 @@ import { StateWriter, readState } from "./permalink";
 import { Plots } from "./plots";
 import { RunScene } from "./run_scene";
 import { fileName } from "./save";
-import { viewsThatSaw } from "./seen_by";
+import { viewsThatSaw } from "./pick";
 import { Stage } from "./stage";
 
 function setRunColours(count: number) {
@@ -48,7 +48,7 @@ function build() {
     replay.moveTo(view + 1);
   });
   const isTwoSheets = needsTwoSheets(page.runs);
-  const plots = new Plots(page.plots, clock, plotHeight_px(isTwoSheets));
+  const plots = new Plots(page.plots, flights, clock, plotHeight_px(isTwoSheets));
   const strip = new FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
@@ -93,7 +93,7 @@ function build() {
   };
   clock.onChange(() => {
     words.replaceChildren(...shownFlights().map((flight) => make("span", {},
-      isAlone ? null : make("span", { class: `dot run-${flight.index}` }),
+      isAlone ? null : ofRun("dot", flight.index),
       panels.readout(flight, clock))));
     strip.show(shownFlights(), clock);
     if (told !== moment()) explain();

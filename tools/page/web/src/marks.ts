@@ -22,27 +22,61 @@ export function makeTube(positions: Numbers, colours: Numbers, width_px: number,
   return tube;
 }
 
-/** Thin ones; three numbers an end, of places and, where there are any, of colours. */
-export function makeLines(positions: Numbers, colours: Numbers | number, opacity = 1) {
+/** Of places and, where there are any, colours and corners of faces; x y z or r g b each. */
+export function geometryOf(places: Numbers, colours: Numbers | null = null,
+    corners: number[] | null = null): three.BufferGeometry {
   const geometry = new three.BufferGeometry();
-  geometry.setAttribute("position", new three.Float32BufferAttribute(Array.from(positions), 3));
-  const isOne = typeof colours === "number";
-  if (!isOne) {
-    geometry.setAttribute("color", new three.Float32BufferAttribute(Array.from(colours), 3));
-  }
-  const lines = new three.LineSegments(geometry, new three.LineBasicMaterial({
-    ...isOne ? { color: colours } : { vertexColors: true },
-    transparent: opacity < 1, opacity, depthWrite: opacity > 0.5 }));
+  const attribute = (values: Numbers) => new three.BufferAttribute(Float32Array.from(values), 3);
+  geometry.setAttribute("position", attribute(places));
+  if (colours) geometry.setAttribute("color", attribute(colours));
+  return corners ? geometry.setIndex(corners) : geometry;
+}
+
+/** Of one colour, as many numbers as there are places; else as they are. */
+function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
+  if (typeof colours !== "number") return colours;
+  const rgb = new three.Color(colours).toArray();
+  return Array.from({ length: places.length }, (_, i) => rgb[i % 3]);
+}
+
+/** Thin ones; three numbers an end, of places and, where they are not of one, of colours. */
+export function makeLines(places: Numbers, colours: Numbers | number, opacity = 1) {
+  // all with colours of their own and blended: of one kind, whose shader is compiled once
+  const lines = new three.LineSegments(geometryOf(places, coloursOf(places, colours)),
+    new three.LineBasicMaterial({ vertexColors: true, transparent: true, opacity,
+      depthWrite: opacity > 0.5 }));
   lines.frustumCulled = false;
   return lines;
 }
 
-/** Takes away what a mark has drawn, and draws anew what it has to. */
-export function redraw(object: three.Group, parts: three.Object3D[]) {
-  for (const part of object.children) (part as three.Mesh).geometry.dispose();
-  object.clear();
-  if (parts.length > 0) object.add(...parts);
-  object.traverse((part) => { part.layers.mask = object.layers.mask; });
+/** Dots of that size; x y z each, of one colour or r g b each. */
+export function makeDots(places: Numbers, colours: Numbers | number, size: number) {
+  const dots = new three.Points(geometryOf(places, coloursOf(places, colours)),
+    new three.PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }));
+  dots.frustumCulled = false;
+  return dots;
+}
+
+/** What is drawn anew for each view, where it is shown. */
+export abstract class ViewMark {
+  readonly object = new three.Group();
+  private drawnFor = "";
+
+  /** After the first `n` views. */
+  show(n: number) {
+    const state = `${n} ${this.variant()}`;
+    if (state === this.drawnFor || !this.object.visible) return;
+    this.drawnFor = state;
+    for (const part of this.object.children) (part as three.Mesh).geometry.dispose();
+    this.object.clear();
+    for (const part of this.parts(n)) this.object.add(part);
+    this.object.traverse((part) => { part.layers.mask = this.object.layers.mask; });
+  }
+
+  protected abstract parts(n: number): three.Object3D[];
+
+  /** What else it depends on. */
+  protected variant(): string { return ""; }
 }
 
 /** A piece of the path: the samples that are its corners, and the line through them. */
@@ -151,29 +185,24 @@ export class FrustaMark {
 }
 
 /** What a tour still means to do: the line through its views, and what the next ones look at. */
-export class PlanMark {
-  readonly object = new three.Group();
+export class PlanMark extends ViewMark {
   count = 0; // of views drawn
   private begin = 0; // of them, among the poses
-  private shownAfter = -1; // view
   private static readonly kSoon = 5; // views whose line and pyramids stand out
   private static readonly kPoseNumbers = 7;
 
-  constructor(private readonly flight: Flight) {}
+  constructor(private readonly flight: Flight) { super(); }
 
-  /** After the first `views` views. */
-  show(views: number) {
-    if (views === this.shownAfter) return;
-    this.shownAfter = views;
+  protected parts(n: number): three.Object3D[] {
     const { ranges } = this.flight.data.plan!;
-    const [begin, end] = views > 0 ? ranges.subarray(2 * views - 2, 2 * views) : [0, 0];
+    const [begin, end] = n > 0 ? ranges.subarray(2 * n - 2, 2 * n) : [0, 0];
     [this.begin, this.count] = [begin, end - begin];
+    if (this.count === 0) return [];
     const soonEnd = Math.min(begin + PlanMark.kSoon, end);
-    redraw(this.object, this.count === 0 ? [] : [
-      this.line(this.flight.viewPose(views - 1).p, begin, soonEnd, 2.6, 1),
-      this.pyramids(begin, soonEnd),
-      ...soonEnd === end ? []
-        : [this.line(this.place(soonEnd - 1), soonEnd, end, 1.3, 0.6), this.dots(soonEnd, end)]]);
+    return [this.line(this.flight.viewPose(n - 1).p, begin, soonEnd, 2.6, 1),
+      this.pyramids(begin, soonEnd), ...soonEnd === end ? []
+        : [this.line(this.place(soonEnd - 1), soonEnd, end, 1.3, 0.6),
+          makeDots(numbersOf(this.places(soonEnd, end)), colourOf("plan"), 5)]];
   }
 
   /** Places (x y z each) of the views that are drawn. */
@@ -195,11 +224,6 @@ export class PlanMark {
     return makeTube(numbersOf(ends), ends.flatMap(() => rgb), width_px, opacity);
   }
 
-  private dots(begin: number, end: number) {
-    return new three.Points(new three.BufferGeometry().setFromPoints(this.places(begin, end)),
-      new three.PointsMaterial({ color: colourOf("plan"), size: 5, sizeAttenuation: false }));
-  }
-
   private pyramids(begin: number, end: number) {
     const { data: { plan, cameras: [camera] } } = this.flight;
     const depth = 0.035 * this.flight.workspace().size_m;
@@ -212,19 +236,21 @@ export class PlanMark {
   }
 }
 
-/** What the cameras of the vehicle see now, out to their range or to `most_m`; to be put on the
- * vehicle's pose. */
-export function makeSight(cameras: CameraData[], most_m: number): three.Object3D[] {
-  const colour = colourOf("camera");
-  const faces = new three.MeshBasicMaterial({ color: colour, transparent: true, opacity: 0.07,
-    depthWrite: false, side: three.DoubleSide });
-  return cameras.flatMap((camera) => {
-    const T = new three.Matrix4().fromArray(camera.T_body_camera);
-    const depth = Math.min(camera.range_m, most_m);
-    const edges = pyramidEdges(camera, T, depth);
-    const corners = pictureCorners(camera, T, depth);
-    const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);
-    return [makeLines(numbersOf(edges), colour, 0.75),
-      new three.Mesh(new three.BufferGeometry().setFromPoints(sides), faces)];
-  });
+/** What the cameras see, out to their range or to `most_m`, on the vehicle's pose. */
+export class SightMark extends ViewMark {
+  constructor(private readonly flight: Flight, private readonly most_m: number) { super(); }
+
+  protected parts(n: number): three.Object3D[] {
+    const colour = colourOf("camera");
+    return this.flight.camerasAt(Math.max(0, n - 1)).flatMap((camera) => {
+      const T = new three.Matrix4().fromArray(camera.T_body_camera);
+      const depth = Math.min(camera.range_m, this.most_m);
+      const edges = pyramidEdges(camera, T, depth);
+      const corners = pictureCorners(camera, T, depth);
+      const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);
+      return [makeLines(numbersOf(edges), colour, 0.75),
+        new three.Mesh(geometryOf(numbersOf(sides)), new three.MeshBasicMaterial({ color: colour,
+          transparent: true, opacity: 0.07, depthWrite: false, side: three.DoubleSide }))];
+    });
+  }
 }

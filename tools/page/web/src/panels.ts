@@ -1,101 +1,57 @@
 // Everything that is text, tables and pictures.
 import type { Clock } from "./clock";
 import type { PageData, RunData, Table } from "./data";
-import { make, measure, minutes, number } from "./dom";
+import { make, measure, minutes, number, ofRun, toggle } from "./dom";
 import type { Flight } from "./flight";
-
-interface Figure {
-  name: string;
-  value: string;
-  unit: string;
-  paper?: string;
-}
-
-/** What a run comes down to. */
-function keyFigures(run: RunData): Figure[] {
-  const f = run.figures;
-  const { views, paper } = run;
-  const count = views.time.length;
-  const figures: Figure[] = [];
-  if (f) {
-    figures.push({ name: "Coverage, 0.05 m", value: number(100 * f.coverage, 1), unit: "%",
-      paper: paper?.coverage_percent
-        ? measure(number(paper.coverage_percent[0], 1), "%") + (paper.is_doubtful ? "\u00a0†" : "")
-        : undefined });
-    if (run.ceiling) {
-      figures.push({ name: "Of the ceiling", value: number(100 * f.coverage / run.ceiling, 1),
-        unit: "%" });
-    }
-    figures.push({ name: "F at 0.05 m", value: number(100 * f.f_5cm, 1), unit: "%" });
-  }
-  figures.push({ name: "Views", value: number(count), unit: "",
-    paper: paper ? number(paper.views) : undefined });
-  figures.push({ name: "View to view", value: number(f?.straight_m ?? views.metres.at(-1) ?? 0, 1),
-    unit: "m", paper: paper?.metres ? measure(number(paper.metres, 1), "m") : undefined });
-  if (f) {
-    figures.push({ name: "Profile flight", value: number(f.profile_m, 1), unit: "m" });
-    figures.push({ name: "Density", value: number(f.density, 1), unit: "a voxel",
-      paper: paper?.density ? number(paper.density, 1) : undefined });
-    figures.push({ name: "Flight with profile", value: minutes(f.flight_time_s), unit: "min" });
-    figures.push({ name: "Energy", value: number(f.energy_wh, 1), unit: "Wh" });
-  }
-  return figures;
-}
 
 /** A name whose unit no line breaks off. */
 const bound = (name: string) => name.replace(/ (\(?m\)?|\(min\))$/, "\u00a0$1");
 
-export function makeTiles(run: RunData): HTMLElement {
-  const figures = keyFigures(run);
-  const hasPapers = figures.some((figure) => figure.paper);
-  const tiles = make("dl", { class: "tiles" }, ...figures.map((figure) =>
-    make("div", { class: "card tile" }, make("dt", {}, bound(figure.name)),
-      make("dd", {}, figure.value, make("span", { class: "unit" }, figure.unit)),
-      hasPapers ? make("dd", { class: "paper" }, figure.paper ? `paper ${figure.paper}` : "")
-        : null)));
-  tiles.style.setProperty("--in-two-rows", String(Math.ceil(figures.length / 2)));
-  tiles.style.setProperty("--in-one-row", String(figures.length));
+export function makeTiles({ key_figures }: RunData): HTMLElement {
+  const hasPapers = key_figures.some(({ paper }) => paper !== "");
+  const tiles = make("dl", { class: "tiles" }, ...key_figures.map(({ name, value, unit, paper }) =>
+    make("div", { class: "card tile" }, make("dt", {}, bound(name)),
+      make("dd", {}, value, make("span", { class: "unit" }, unit)),
+      hasPapers ? make("dd", { class: "paper" }, paper && `paper ${measure(paper, unit)}`) : null)));
+  tiles.style.setProperty("--in-two-rows", String(Math.ceil(key_figures.length / 2)));
+  tiles.style.setProperty("--in-one-row", String(key_figures.length));
   return tiles;
 }
 
 /** A row a run; its box chooses whether it is shown. */
 export function makeRunTable(runs: RunData[], shown: Set<number>,
     change: () => void): HTMLElement {
-  const heads = [...new Set(runs.flatMap((run) => keyFigures(run).map((f) => f.name)))];
+  const heads = [...new Set(runs.flatMap((run) => run.key_figures.map(({ name }) => name)))];
   const row = (run: RunData, index: number) => {
-    const figures = new Map(keyFigures(run).map((f) => [f.name, f]));
-    const box = make("input", { type: "checkbox", checked: shown.has(index),
-      "aria-label": `Show ${run.label}` });
-    box.addEventListener("change", () => {
-      if (box.checked) shown.add(index); else shown.delete(index);
+    const box = toggle(run.label, shown.has(index), (on) => {
+      if (on) shown.add(index); else shown.delete(index);
       change();
     });
-    return make("tr", {}, make("th", { scope: "row" },
-      make("label", {}, box, make("span", { class: `chip run-${index}` }, run.label))),
-      ...heads.map((head) => {
-        const f = figures.get(head);
-        return make("td", { class: "number" }, f ? measure(f.value, f.unit) : "");
-      }));
+    return make("tr", {}, make("th", { scope: "row" }, ofRun("chip", index, box)), ...heads.map((head) => {
+      const figure = run.key_figures.find(({ name }) => name === head);
+      return make("td", { class: "number" }, figure ? measure(figure.value, figure.unit) : "");
+    }));
   };
-  return make("div", { class: "card scroll" }, make("table", { class: "runs" },
-    make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Shown below"),
-      ...heads.map((head) => make("th", { scope: "col", class: "number" }, bound(head))))),
-    make("tbody", {}, ...runs.map(row))));
+  return tableOf("runs", ["Shown below", ...heads.map(bound)], (i) => i > 0, runs.map(row));
 }
 
-export function makeTable(table: Table): HTMLElement {
-  const align = (i: number) => (table.columns[i].is_number ? "number" : "");
-  const ours = table.columns.findIndex((column) => column.head === "Row");
-  return make("div", {},
-    make("h3", {}, table.title),
-    make("div", { class: "card scroll" }, make("table", {},
-      make("thead", {}, make("tr", {}, ...table.columns.map((column, i) =>
-        make("th", { scope: "col", class: align(i) }, bound(column.head))))),
-      make("tbody", {}, ...table.rows.map((row) =>
-        make("tr", { class: row[ours] === "ours" ? "ours" : "" },
-          ...row.map((cell, i) =>
-            make("td", { class: align(i) }, cell.replace(/(\d)%$/, "$1\u00a0%")))))))),
-    make("ul", { class: "notes" }, ...table.notes.map((note) => make("li", {}, ...withCode(note)))));
+/** `heads` of columns, some of numbers, over rows. */
+export function tableOf(kind: string, heads: string[], isNumber: (column: number) => boolean,
+    rows: HTMLElement[]): HTMLElement {
+  return make("div", { class: "card scroll" }, make("table", { class: kind },
+    make("thead", {}, make("tr", {}, ...heads.map((head, i) =>
+      make("th", { scope: "col", class: isNumber(i) ? "number" : "" }, head)))),
+    make("tbody", {}, ...rows)));
+}
+
+export function makeTable({ title, columns, rows, notes }: Table): HTMLElement {
+  const isNumber = (column: number) => columns[column].is_number;
+  const ours = columns.findIndex(({ head }) => head === "Row");
+  return make("div", {}, make("h3", {}, title),
+    tableOf("", columns.map(({ head }) => bound(head)), isNumber, rows.map((row) =>
+      make("tr", { class: row[ours] === "ours" ? "ours" : "" }, ...row.map((cell, i) =>
+        make("td", { class: isNumber(i) ? "number" : "" }, cell.replace(/(\d)%$/, "$1\u00a0%")))))),
+    make("ul", { class: "notes" }, ...notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
 export function makeMissing(runs: RunData[]): HTMLElement | null {
@@ -116,28 +72,13 @@ function withCode(sentence: string): (Node | string)[] {
 export function makeConfiguration(runs: RunData[]): HTMLElement {
   return make("section", {}, make("h2", {}, "Fly it again"),
     ...runs.map((run) => make("div", { class: "card again" },
-      runs.length > 1 ? make("span", { class: `chip run-${runs.indexOf(run)}` }, run.label) : null,
-      make("div", { class: "command" }, make("code", {}, run.command), copyButton(run.command)),
+      runs.length > 1 ? ofRun("chip", runs.indexOf(run), run.label) : null,
+      make("p", {}, make("code", {}, run.command)),
       run.figures ? make("p", { class: "fine" },
         `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,
         make("code", {}, run.figures.result_sha256)) : null,
       make("details", {}, make("summary", {}, "Configuration: scenario.yaml"),
         make("pre", { tabindex: 0 }, run.yaml)))));
-}
-
-function copyButton(text: string): HTMLElement {
-  const button = make("button", { type: "button", class: "small" }, "Copy");
-  button.addEventListener("click", async () => {
-    try {
-      await navigator.clipboard.writeText(text);
-      button.textContent = "Copied";
-    } catch { // no clipboard for a page from a file: selects the command instead
-      getSelection()?.selectAllChildren(button.previousElementSibling!);
-      button.textContent = "Selected";
-    }
-    setTimeout(() => { button.textContent = "Copy"; }, 1600);
-  });
-  return button;
 }
 
 /** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */

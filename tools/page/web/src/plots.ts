@@ -1,44 +1,85 @@
 // The plots: one cursor for all, the replay's place in each; a click moves the replay there. What
-// they show comes with the page (tools/page/plots.hpp); each is an SVG, on the page, on paper and
-// as a file.
+// they show comes with the page (tools/figures/figures.schema.json); each is an SVG, on the page, on
+// paper and as a file.
 import { kEfforts, type Clock } from "./clock";
-import { hairline, isDark, onPage, paleInk, runColour } from "./colours";
-import type { Plot, PlotChoice, PlotSeries } from "./data";
+import { hairline, isDark, onPage, paleInk } from "./colours";
+import type { Plot, PlotChoice } from "./data";
 import { make, number, select, significant } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
-import { fileName, saveText } from "./save";
+import { fileName, saveFile } from "./save";
 
-const kEffortNames = { views: "Views", metres: "Metres from the first view on, straight",
-  seconds: "Seconds from the first view on" };
-const kRoom = 1.02; // right of the last view, so that no mark lies on the edge
+/** Of figures.schema.json, with numbers as arrays in which NaN is what is not known. */
+interface Axis { label: string; low: number; high: number; ticks: { at: number; text: string }[] }
+interface Series { name: string; label: string; mark: "line" | "steps" | "level" | "interval";
+  colour: string; dashes: number[]; width_pt: number; x: Float64Array; y: Float64Array;
+  low: Float64Array; high: Float64Array; end: (number | null)[] | null }
+interface Panel { x: Axis; y: Axis; shades: { label: string; spans: number[][] }; series: Series[] }
+export interface Figure { notes: string[]; panels: Panel[] }
+
+const kLeft = 60;
 const kRight = 16;
-const kLane = 9;
+const kLane = 9; // of a panel of intervals
 const kKeys = 4; // a row
 const kKeyRow = 14;
 
 /** Of the page, of paper or of a file, which says itself what it shows. */
-interface SvgLook { width: number; height: number; left: number; font: number;
-  title: string | null }
-interface Range { x1: number; y0: number; y1: number }
+interface SvgLook { where: "screen" | "paper" | "file"; width: number; height: number; left: number;
+  font: number; title?: string }
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const label = (x: number, y: number, anchor: string, what: string) => `<text x="${
   x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="currentColor">${
   escaped(what)}</text>`;
-const rect = (x: number, y: number, width: number, height: number, colour: string, more = "") =>
-  `<rect x="${x.toFixed(1)}" y="${y.toFixed(1)}" width="${width.toFixed(1)}" height="${
-    height.toFixed(1)}" fill="${colour}" ${more}/>`;
+const rect = (x: number, y: number, width: number, height: number, colour: string) =>
+  `<rect x="${x.toFixed(1)}" y="${y.toFixed(1)}" width="${Math.max(1, width).toFixed(1)}" height="${
+    height.toFixed(1)}" fill="${colour}"/>`;
+const isLanes = (panel: Panel) => panel.series[0]?.mark === "interval";
+const heightOf = (panels: Panel[]) =>
+  kLane * panels.filter(isLanes).reduce((sum, { y }) => sum + y.high - y.low, 0);
 
-/** Multiples of 1, 2 or 5 times a power of ten, at most `most` of them, with their names. */
-function ticks(low: number, high: number, most: number): [number, string][] {
-  const least = (high - low) / most || 1;
-  const decade = 10 ** Math.floor(Math.log10(least));
-  const step = decade * ([1, 2, 5].find((k) => k * decade >= least * (1 - 1e-9)) ?? 10);
-  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) =>
-    [(first + i) * step, ((first + i) * step).toLocaleString("en-US",
-      { maximumFractionDigits: digits })]);
+/** A panel between `top` and `bottom` of a picture; its axis below where that is the last one. */
+function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, bottom: number,
+    isLast: boolean): string {
+  const { where, width, left, font } = look;
+  const isPaper = where !== "screen";
+  const line = isPaper ? "#dfe4ea" : hairline();
+  const [w, h] = [width - left - kRight, bottom - top];
+  const px = (at: number) => left + w * (at - x.low) / (x.high - x.low);
+  const py = (at: number) => bottom - h * (at - y.low) / (y.high - y.low || 1);
+  const colour = (one: Series) => (isPaper ? one.colour : `#${onPage(one.colour).getHexString()}`);
+  const shade = isPaper || !isDark() ? "#fcf0e1" : "#33291d"; // opaque: not all know rgba()
+  const point = (at: number, value: number) => `${px(at).toFixed(1)},${py(value).toFixed(1)}`;
+  const draw = (one: Series) => {
+    const known = [...one.y.keys()].filter((i) => !Number.isNaN(one.y[i]));
+    if (one.mark === "interval") {
+      return `<g class="lane"><title>${escaped(one.name)}</title>`
+        + rect(left, py(one.y[0]) - kLane / 2, w, kLane - 2, line) + known.map((i) =>
+          rect(px(one.low[i]), py(one.y[i]) - kLane / 2, px(one.high[i]) - px(one.low[i]),
+            kLane - 2, colour(one))).join("") + "</g>";
+    }
+    // where each is, and what it is worth there: a step has the value before it, too
+    const corners = known.flatMap((i, k) => [
+      ...k > 0 && one.mark === "steps" ? [[i, known[k - 1]]] : [], [i, i]]);
+    const along = (values: Float64Array) => corners.map(([i, of]) => point(one.x[i], values[of]));
+    const band = one.low.length === 0 ? "" : `<polygon fill="${colour(one)}" fill-opacity="0.22" `
+      + `points="${[...along(one.high), ...along(one.low).reverse()].join(" ")}"/>`;
+    const way = one.mark === "level" ? `${point(x.low, one.y[0])}H${px(x.high).toFixed(1)}`
+      : along(one.y).join("L");
+    const [endX, endY] = one.end ?? [null, null];
+    return `${band}<path fill="none" stroke="${colour(one)}" stroke-width="${
+      Math.max(0.8, 1.6 * one.width_pt).toFixed(1)}" stroke-dasharray="${
+      one.dashes.join(" ") || "none"}" d="M${way}"/>${endX === null || endY === null ? ""
+      : `<circle cx="${px(endX).toFixed(1)}" cy="${py(endY).toFixed(1)}" r="3.5" fill="${
+        colour(one)}"/>`}`;
+  };
+  const grid = `<path fill="none" stroke="${line}" d="`;
+  return [...shades.spans.map(([from, to]) => rect(px(from), top, px(to) - px(from), h, shade)),
+    ...!isLast ? [] : x.ticks.map(({ at, text }) => `${grid}M${px(at).toFixed(1)} ${top}v${h}"/>`
+      + label(px(at), bottom + 1.4 * font, "middle", text)),
+    ...y.ticks.map(({ at, text }) => (isLast ? `${grid}M${left} ${py(at).toFixed(1)}h${w}"/>` : "")
+      + label(left - 6, py(at) + 0.36 * font, "end", text)),
+    ...series.map(draw),
+    isLast ? label(left + w / 2, bottom + 2.8 * font, "middle", x.label) : ""].join("");
 }
 
 /** One plot with what is chosen of it, of the runs that are shown. */
@@ -48,36 +89,41 @@ class PlotView {
   private readonly place = make("div", { class: "plot-place" });
   private readonly values: HTMLElement[] = [];
   private readonly now = make("i", { class: "now" }); // moving it draws no plot anew
-  private readonly range: Range;
+  private readonly panels: Panel[];
+  private readonly named: Series[];
 
-  constructor(private readonly plot: Plot, private readonly choice: PlotChoice,
-      private readonly series: PlotSeries[], words: string,
-      private readonly all: Plots, controls: HTMLElement[]) {
-    const papers = new Set(this.rings().map((ring) => ring.label));
-    const shaded = this.phased();
-    const isAlone = all.flights.length === 1;
-    this.range = this.rangeOf();
-    const legend = make("div", { class: "values" }, ...series.map((line) => {
+  constructor(plot: Plot, { notes, panels }: Figure, words: string, private readonly all: Plots,
+      controls: HTMLElement[]) {
+    this.panels = panels.map((panel) => ({ ...panel,
+      series: panel.series.filter(({ name }) => all.isShown(name)) }))
+      .filter(({ series }) => series.length > 0);
+    const main = this.panels.at(-1);
+    this.named = main?.series.filter((one) => one.label !== "") ?? [];
+    const title = `${plot.title}${words} ${main?.y.label ?? ""}`.trim();
+    const legend = make("div", { class: "values" }, ...this.named.map((one) => {
+      const mark = make("i", { class: "mark line" });
+      mark.style.background = `#${onPage(one.colour).getHexString()}`;
       const value = make("b", {});
       this.values.push(value);
-      const mark = make("i", { class: "mark line" });
-      mark.style.background = all.colourOf(line);
-      return make("span", {}, mark, line.label, " ", value);
+      return make("span", {}, mark, one.label, " ", value);
     }));
     this.element = make("figure", { class: "card plot" }, make("figcaption", {},
       make("span", { class: "plot-title", title: plot.note }, plot.title),
-      make("span", { class: "plot-choice" }, words), make("span", { class: "unit" }, choice.unit),
-      make("span", { class: "marks-key" },
-        ...[...papers].map((paper) => make("span", {}, `○ paper's end: ${paper}`)),
-        shaded.length === 0 || plot !== all.plots[0] ? null : make("span", {},
-          make("i", { class: isAlone ? "swatch" : "swatch strip" }),
-          isAlone ? "frontier views (FVS)" : "FVS: when each run chose frontier views")),
+      make("span", { class: "plot-choice" }, words),
+      make("span", { class: "unit" }, main?.y.label ?? ""),
+      make("span", { class: "marks-key" }, ...notes.map((note) => make("span", {}, note)),
+        ...this.panels.filter(isLanes).map(({ y }) => make("span", {},
+          make("i", { class: "swatch strip" }), y.label)),
+        main && main.shades.spans.length > 0 && plot === all.plots[0] ? make("span", {},
+          make("i", { class: "swatch" }), main.shades.label) : null),
       ...controls),
-    ...series.length === 0 ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
+    ...!main ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
       : [this.place, legend, make("button", { type: "button", class: "small save",
-        title: `${plot.title} as SVG`, click: () => saveText(this.drawn({ width: 640, height: 400,
-          left: 64, font: 11, title: `${plot.title}${words} ${choice.unit}`.trim() }, "file"),
-        "image/svg+xml", `${fileName(plot.title)}.svg`) }, "SVG")]);
+        title: `${plot.title} as SVG`, click: () => {
+          const svg = this.drawn({ where: "file", width: 640, height: 400, left: 64, font: 11,
+            title });
+          saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
+        } }, "SVG")]);
     for (const kind of ["pointerdown", "pointermove", "pointerleave"] as const) {
       this.place.addEventListener(kind, (event) => this.point(event));
     }
@@ -87,158 +133,67 @@ class PlotView {
   fit() {
     const width = this.place.clientWidth;
     if (width === 0 || (this.svg && width === Number(this.svg.getAttribute("width")))) return;
-    const parse = (text: string) => new DOMParser()
-      .parseFromString(text, "image/svg+xml").documentElement as unknown as SVGElement;
-    const height = 168 + kLane * this.lanes().length + (this.choice.label === "All terms" ? 92 : 0);
-    this.svg = parse(this.drawn({ width, height, left: 60, font: 11, title: null }, "screen"));
-    this.place.replaceChildren(this.svg, this.now, parse(this.drawn(
-      { width: 350, height: this.all.paper_px, left: 44, font: 9, title: null }, "paper")));
+    const parse = (look: SvgLook) => new DOMParser()
+      .parseFromString(this.drawn(look), "image/svg+xml").documentElement as unknown as SVGElement;
+    this.svg = parse({ where: "screen", width, height: 168 + heightOf(this.panels), left: kLeft,
+      font: 11 });
+    this.place.replaceChildren(this.svg, this.now, parse({ where: "paper", width: 350,
+      height: this.all.paper_px, left: 44, font: 9 }));
   }
 
   /** The replay's place, and the values at `at`. */
   follow(now: number, at: number) {
     if (!this.svg) return;
-    const x = this.frame(Number(this.svg.getAttribute("width"))).px(Math.max(0, now));
-    this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
-    this.series.forEach((line, i) => {
-      const { x, y } = line.by[this.all.effort()];
-      let k = lastAtMost(x, at + 1e-9);
-      if (k < 0 && line.by[0].x[0] === 0) k = 0; // after the profile alone
+    const { x: { high } } = this.panels.at(-1)!;
+    const w = Number(this.svg.getAttribute("width")) - kLeft - kRight;
+    this.now.style.transform = `translateX(${(kLeft + w * Math.max(0, now) / high).toFixed(1)}px)`;
+    this.named.forEach(({ mark, x, y, low, high: most }, i) => {
+      let k = mark === "level" ? 0 : lastAtMost(x, at + 1e-9);
+      if (k < 0 && x[0] === 0) k = 0; // after the profile alone
       while (k >= 0 && Number.isNaN(y[k])) --k;
-      this.values[i].textContent = k < 0 ? "–" : this.text(y[k]) + this.spread(line, k);
+      const range = k >= 0 && low.length > 0 ? ` (${valueText(low[k])} to ${valueText(most[k])})` : "";
+      this.values[i].textContent = k < 0 ? "–" : valueText(y[k]) + range;
     });
-  }
-
-  private spread(line: PlotSeries, k: number) {
-    const { low, high } = line.by[this.all.effort()];
-    return low && high ? ` (${this.text(low[k])} to ${this.text(high[k])})` : "";
-  }
-
-  private text(value: number) {
-    const { decimals } = this.plot;
-    return decimals < 0 ? significant(value)
-      : number(value, Math.abs(value) >= 1000 ? 0 : decimals);
   }
 
   private point(event: PointerEvent) {
     if (!this.svg) return;
     const { left, width } = this.svg.getBoundingClientRect();
-    const { w } = this.frame(width);
-    const at = this.range.x1 * (event.clientX - left - 60) / w;
+    const at = this.panels.at(-1)!.x.high * (event.clientX - left - kLeft) / (width - kLeft - kRight);
     if (event.type === "pointerleave") this.all.hover(null);
     else if (event.buttons === 1) this.all.seek(at);
     else this.all.hover(at);
   }
 
-  private frame(width: number, left = 60) {
-    const w = width - left - kRight;
-    return { w, px: (x: number) => left + w * x / this.range.x1 };
-  }
-
-  private rings() {
-    const { effort, last } = this.all;
-    return this.choice.rings.filter(({ run, x }) => this.all.isShown(run)
-      && x[effort()] !== null && x[effort()]! <= last());
-  }
-
-  /** Room above and below, and for the paper's rings; never below zero when nothing is. */
-  private rangeOf(): Range {
-    let [least, most] = [Infinity, -Infinity];
-    const take = (y: number) => { [least, most] = [Math.min(least, y), Math.max(most, y)]; };
-    for (const line of this.series) {
-      const { y, low, high } = line.by[this.all.effort()];
-      for (const value of [...y, ...low ?? [], ...high ?? []]) {
-        if (Number.isFinite(value)) take(value);
-      }
-    }
-    for (const { y } of this.rings()) take(y);
-    const x1 = kRoom * this.all.last();
-    if (least > most) return { x1, y0: 0, y1: 1 };
-    const room = 0.06 * (most - least || Math.abs(most) || 1);
-    return { x1, y0: least >= 0 && least - room < 0 ? 0 : least - room, y1: most + room };
-  }
-
-  /** Whose frontier views are marked: of one run behind all curves, else in the first plot. */
-  private phased() {
-    const { flights, plots } = this.all;
-    return flights.length > 1 && this.plot !== plots[0] ? []
-      : flights.filter(({ data }) => data.views.frontier_phases.length > 0);
-  }
-
-  /** Or in a lane each above the curves, which no curve enters. */
-  private lanes() { return this.all.flights.length > 1 ? this.phased() : []; }
-
-  private drawn(look: SvgLook, where: "screen" | "paper" | "file"): string {
-    const { width, height, left, font, title } = look;
-    const { x1, y0, y1 } = this.range;
-    const isPaper = where !== "screen";
-    const effort = this.all.effort();
-    const colourOf = (line: PlotSeries) => (isPaper ? line.colour : this.all.colourOf(line));
-    const lanes = this.lanes();
-    const keys = title === null ? [] : this.series;
-    const lanesTop = (title === null ? 8 : 20) + kKeyRow * Math.ceil(keys.length / kKeys);
-    const top = lanesTop + kLane * lanes.length;
-    const { w, px } = this.frame(width, left);
-    const h = height - top - 3.3 * font; // above the numbers and the name of the axis
-    const py = (y: number) => top + h * (1 - (y - y0) / (y1 - y0 || 1));
-    const grid = `fill="none" stroke="${isPaper ? "#dfe4ea" : hairline()}"`;
-    const bars = (flight: Flight, y: number, tall: number, colour: string) =>
-      flight.data.views.frontier_phases.map(([from, to]) => {
-        const [x0, end] = [from, to].map((n) =>
-          px(Math.min(flight.effort(n, this.all.clock.effort), x1)));
-        return rect(x0, y, Math.max(1, end - x0), tall, colour);
-      }).join("");
-    const shade = isPaper || !isDark() ? "#fcf0e1" : "#33291d"; // opaque: not all know rgba()
-    const path = (line: PlotSeries) => {
-      const { x, y } = line.by[effort];
-      let d = "";
-      for (let i = 0; i < x.length; ++i) {
-        if (Number.isNaN(y[i])) continue;
-        if (d && line.is_step) d += `H${px(x[i]).toFixed(1)}V${py(y[i]).toFixed(1)}`;
-        else d += `${d ? "L" : "M"}${px(x[i]).toFixed(1)} ${py(y[i]).toFixed(1)}`;
-      }
-      return `<path fill="none" stroke="${colourOf(line)}" stroke-width="1.6" stroke-dasharray="${
-        line.dashes.join(" ") || "none"}" d="${d}"/>`;
+  private drawn(look: SvgLook): string {
+    const { where, width, height, left, font, title } = look;
+    const keys = title ? this.named : [];
+    const key = ({ colour, label: words }: Series, i: number) => {
+      const [x, y] = [left + i % kKeys * 138, 26 + kKeyRow * Math.floor(i / kKeys)];
+      return rect(x, y - 9, 10, 10, colour) + label(x + 14, y, "start", words);
     };
-    const band = (line: PlotSeries) => {
-      const { x, low, high } = line.by[effort];
-      if (!low || !high) return "";
-      const known = [...x.keys()].filter((i) => Number.isFinite(low[i]));
-      const at = (i: number, y: number) => `${px(x[i]).toFixed(1)},${py(y).toFixed(1)}`;
-      const points = [...known.map((i) => at(i, high[i])),
-        ...known.reverse().map((i) => at(i, low[i]))];
-      return `<polygon fill="${colourOf(line)}" fill-opacity="0.22" points="${points.join(" ")}"/>`;
-    };
-    const key = (i: number) => [left + i % kKeys * 138, 26 + kKeyRow * Math.floor(i / kKeys)];
-    const parts = [
-      ...lanes.length === 0 ? this.phased().map((flight) => bars(flight, top, h, shade)) : [],
-      ...lanes.map((flight, i) =>
-        `<g class="phase-lane"><title>${escaped(flight.data.label)}</title>`
-        + rect(left, lanesTop + kLane * i, w, kLane - 2, isPaper ? "#dfe4ea" : hairline())
-        + bars(flight, lanesTop + kLane * i, kLane - 2, runColour(flight.index)) + "</g>"),
-      lanes.length === 0 ? ""
-        : label(left - 6, lanesTop + kLane * lanes.length / 2 + 3, "end", "FVS"),
-      ...ticks(0, x1, 6).map(([x, name]) => `<path ${grid} d="M${px(x).toFixed(1)} ${top}v${h}"/>`
-        + label(px(x), height - 1.9 * font, "middle", name)),
-      ...ticks(y0, y1, Math.floor(h / (2 * font))).map(([y, name]) =>
-        `<path ${grid} d="M${left} ${py(y).toFixed(1)}h${w}"/>`
-        + label(left - 6, py(y) + 0.36 * font, "end", name)),
-      ...this.series.map(band), ...this.series.map(path),
-      ...this.rings().map((ring) => `<circle cx="${px(ring.x[effort]!).toFixed(1)}" cy="${
-        py(ring.y).toFixed(1)}" r="4.5" fill="none" stroke="${ring.colour}" stroke-width="1.6"/>`),
-      ...keys.map((line, i) => rect(key(i)[0], key(i)[1] - 9, 10, 10, colourOf(line))
-        + label(key(i)[0] + 14, key(i)[1], "start", line.label)),
-      title === null ? "" : label(left, 12, "start", title),
-      label(left + w / 2, height - 0.5 * font, "middle", kEffortNames[this.all.clock.effort])];
+    let top = (title ? 20 : 8) + kKeyRow * Math.ceil(keys.length / kKeys);
+    const parts = this.panels.map((panel, i) => {
+      const isLast = i + 1 === this.panels.length;
+      const bottom = isLast ? height - 3.3 * font : top + heightOf([panel]);
+      const part = drawPanel(panel, look, top, bottom, isLast);
+      top = bottom;
+      return part;
+    });
     return `<svg xmlns="http://www.w3.org/2000/svg" class="${where}" `
-      + `viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" font-family="sans-serif" font-size="${font}" color="${
-        isPaper ? "#30363f" : paleInk()}">${parts.join("")}</svg>\n`;
+      + `viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" `
+      + `font-family="sans-serif" font-size="${font}" color="${
+        where === "screen" ? paleInk() : "#30363f"}">${parts.join("")}${keys.map(key).join("")}${
+        title ? label(left, 12, "start", title) : ""}</svg>\n`;
   }
 }
 
+const valueText = (value: number) =>
+  (Math.abs(value) >= 1000 ? number(value) : significant(value));
+
 export class Plots {
   readonly element = make("section", { class: "plots", "aria-label": "Plots" });
-  flights: Flight[] = [];
+  private hidden = new Set<string>(); // labels of runs
   private views: PlotView[] = [];
   private shownBy = "";
   private hovered: number | null = null;
@@ -246,8 +201,8 @@ export class Plots {
   private readonly chosen: number[]; // of each plot
 
   /** Plots are `paper_px` high where they are 350 px wide, on paper. */
-  constructor(readonly plots: Plot[], readonly clock: Clock,
-      readonly paper_px: number) {
+  constructor(readonly plots: Plot[], private readonly flights: Flight[],
+      private readonly clock: Clock, readonly paper_px: number) {
     this.chosen = plots.map(() => 0);
     clock.onChange(() => {
       if (clock.effort !== this.shownBy) this.rebuild(); else this.follow();
@@ -255,20 +210,11 @@ export class Plots {
     new ResizeObserver(() => this.fit()).observe(this.element);
   }
 
-  readonly effort = () => kEfforts.findIndex(([name]) => name === this.clock.effort) as 0 | 1 | 2;
-  readonly isShown = (run: number) => run < 0 || this.flights.some(({ index }) => index === run);
-  colourOf(line: PlotSeries) { return `#${onPage(line.colour).getHexString()}`; }
+  isShown(series: string) { return !this.hidden.has(series); }
 
-  /** Of all plots alike: where the longest run ends, or the paper's if that is not much farther. */
-  readonly last = () => {
-    const { effort } = this.clock;
-    const ours = Math.max(...this.flights.map((flight) => flight.last(effort)), 1e-6);
-    const papers = this.flights.map(({ data: { paper } }) => paper?.[effort] ?? 0);
-    return Math.max(ours, ...papers.filter((end) => end <= 1.2 * ours));
-  };
-
-  setFlights(flights: Flight[]) {
-    this.flights = flights;
+  setFlights(shown: Flight[]) {
+    this.hidden = new Set(this.flights.filter((flight) => !shown.includes(flight))
+      .map(({ data }) => data.label));
     this.rebuild();
   }
 
@@ -289,14 +235,15 @@ export class Plots {
   }
 
   private viewOf(plot: Plot, i: number): PlotView {
-    const choice = plot.choices[this.chosen[i]];
-    const hasMeans = plot.choices.some(({ means }) => means.some(({ run }) => run >= 0));
+    const choice: PlotChoice | undefined = plot.choices[this.chosen[i]];
+    const hasMeans = (choice?.means.length ?? 0) > 0;
     const isMean = this.showsMeans && hasMeans;
-    const means = choice.means.filter(({ run }) => this.isShown(run));
+    const effort = kEfforts.findIndex(([name]) => name === this.clock.effort);
+    const figure = (isMean ? choice?.means : choice?.runs)?.[effort];
     const controls = [
       i === 0 && hasMeans ? select("Runs of several seeds",
-        [["runs", "Each run"], ["bands", "Mean and range"]], isMean ? "bands" : "runs", (value) => {
-          this.showsMeans = value === "bands";
+        [["runs", "Each run"], ["means", "Means"]], isMean ? "means" : "runs", (value) => {
+          this.showsMeans = value === "means";
           this.rebuild();
         }) : null,
       plot.choices.length > 1 ? select(plot.chooses, plot.choices.map(({ label: words }, k) =>
@@ -305,9 +252,8 @@ export class Plots {
         this.rebuild();
       }) : null].filter((control) => control !== null);
     const words = (plot.choices.length > 1 ? `, ${choice.label.replace(/^[A-Z]/, (c) =>
-      c.toLowerCase())}` : "") + (isMean ? ", mean and range of seeds" : "");
-    return new PlotView(plot, choice, isMean ? means
-      : choice.series.filter(({ run }) => this.isShown(run)), words, this, controls);
+      c.toLowerCase())}` : "") + (isMean ? ", means of seeds" : "");
+    return new PlotView(plot, figure ?? { notes: [], panels: [] }, words, this, controls);
   }
 
   /** The replay's place, and the values there while no cursor asks for others. */

@@ -3,9 +3,8 @@
 import type * as three from "three";
 import { make, number } from "./dom";
 import { figuresOf } from "./frame_strip";
-import type { Picked } from "./pick";
+import { viewsThatSaw, type Picked } from "./pick";
 import type { RunScene } from "./run_scene";
-import { viewsThatSaw } from "./seen_by";
 
 const kMostNamed = 8;
 

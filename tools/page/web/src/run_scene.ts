@@ -4,10 +4,10 @@ import { BelievedMarks } from "./believed";
 import { CandidateMarks } from "./candidates";
 import type { Clock } from "./clock";
 import { hairline } from "./colours";
-import type { MeshData } from "./data";
+import type { MeshData, RunData } from "./data";
 import { kMarkLayer } from "./depth_shading";
 import { rangeOf, type Flight } from "./flight";
-import { FrustaMark, PathMark, PlanMark, makeSight, redraw } from "./marks";
+import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
 import type { Picked } from "./pick";
 import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
@@ -25,21 +25,11 @@ export type Layers = Record<string, boolean>;
 /** Of a picture that a line parts: the true structure, the surface made of the run; or all. */
 export type Side = "truth" | "surface" | "all";
 
-/** Lines on the ground, every 1, 2, 5, 10 ... m so that there are 8 to 20 each way. */
-function gridStep(min: number[], max: number[]): number {
+function makeGround({ workspace_min: min, workspace_max: max, grid_m }: RunData): three.GridHelper {
   const extent = Math.max(max[0] - min[0], max[1] - min[1]);
-  const decade = 10 ** Math.floor(Math.log10(extent / 8));
-  return decade * (extent / 8 >= 5 * decade ? 5 : extent / 8 >= 2 * decade ? 2 : 1);
-}
-
-function makeGround(min: number[], max: number[]): three.GridHelper {
-  const extent = Math.max(max[0] - min[0], max[1] - min[1]);
-  const step = gridStep(min, max);
-  const count = 2 * Math.ceil(extent / step / 2 + 1);
-  const grid = new three.GridHelper(count * step, count, hairline(), hairline());
-  (grid.material as three.Material).transparent = true;
-  (grid.material as three.Material).opacity = 0.95;
-  (grid.material as three.Material).depthWrite = false;
+  const count = 2 * Math.ceil(extent / grid_m / 2 + 1);
+  const grid = new three.GridHelper(count * grid_m, count, hairline(), hairline());
+  Object.assign(grid.material, { transparent: true, opacity: 0.95, depthWrite: false });
   grid.rotation.x = Math.PI / 2; // three's grids lie in x, z
   grid.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, 0);
   return grid;
@@ -59,12 +49,10 @@ export class RunScene {
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
   readonly believed: BelievedMarks | null;
-  readonly runSurface: three.Mesh | null;
-  readonly gridStep_m: number;
+  readonly runSurface: three.Group | null;
   onLoad = () => {}; // of the picture on that surface
   private readonly body: three.Group;
-  private readonly sightMark = new three.Group();
-  private lookedAs = -1; // view
+  private readonly sightMark: SightMark;
   private readonly path: PathMark;
   private layers: Layers = {};
   private others: RunScene[] = [];
@@ -83,10 +71,9 @@ export class RunScene {
     this.surface = mesh?.surface && data.found
       ? new TrueSurface(mesh.surface, data.found, flight.count) : null;
     this.runSurface = data.surface && readRunSurface(data.surface, () => this.onLoad());
-    this.gridStep_m = gridStep(data.workspace_min, data.workspace_max);
     this.body = makeVehicle(data);
-    this.sightMark.add(...makeSight(data.cameras, this.sightMost_m()));
-    this.vehicle.add(this.body, this.sightMark);
+    this.sightMark = new SightMark(flight, this.sightMost_m());
+    this.vehicle.add(this.body, this.sightMark.object);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.set(-0.5, -0.8, 1.4);
     const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
@@ -94,7 +81,7 @@ export class RunScene {
     this.scene.add(sun, sky);
     const marks = [this.path.object, this.frusta.object, this.vehicle, this.plan?.object,
       this.candidates?.object, this.believed?.object,
-      data.has_ground ? makeGround(data.workspace_min, data.workspace_max) : null];
+      data.has_ground ? makeGround(data) : null];
     for (const part of [this.structure?.object, this.model.voxels, this.runSurface,
       this.splats.object, ...marks]) {
       if (part) this.scene.add(part);
@@ -176,8 +163,9 @@ export class RunScene {
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
-    if (n > 0) this.lookAs(n - 1);
-    this.sightMark.visible = n > 0 && !this.candidates?.object.visible; // it has rays of its own
+    // candidates have rays of their own
+    this.sightMark.object.visible = n > 0 && !this.candidates?.object.visible;
+    this.sightMark.show(n);
     // from afar larger than life, or it would be a speck
     const away = camera.position.distanceTo(pose.p);
     this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.radius_m));
@@ -191,13 +179,6 @@ export class RunScene {
     const range_m = rangeOf(this.flight.data.cameras);
     const length_m = Math.min(range_m, this.sightMost_m());
     return { length_m, isWhole: length_m === range_m };
-  }
-
-  /** What the cameras see at a view, where a gimbal turns them. */
-  private lookAs(view: number) {
-    if (view === this.lookedAs || !this.flight.data.views.T_body_camera) return;
-    this.lookedAs = view;
-    redraw(this.sightMark, makeSight(this.flight.camerasAt(view), this.sightMost_m()));
   }
 
   /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */

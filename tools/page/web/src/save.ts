@@ -1,23 +1,10 @@
-// Pictures of the page as files: the 3D view as PNG, a plot as PNG or SVG.
+// Pictures of the page as files: the 3D view as PNG, a plot as SVG.
 import { make } from "./dom";
 
-function download(url: string, name: string) {
-  const link = make("a", { href: url, download: name });
-  link.click();
-}
-
-export function savePng(canvas: HTMLCanvasElement, name: string) {
-  canvas.toBlob((blob) => {
-    if (!blob) return;
-    const url = URL.createObjectURL(blob);
-    download(url, `${name}.png`);
-    setTimeout(() => URL.revokeObjectURL(url), 10_000);
-  });
-}
-
-export function saveText(text: string, type: string, name: string) {
-  const url = URL.createObjectURL(new Blob([text], { type }));
-  download(url, name);
+export function saveFile(blob: Blob | null, name: string) {
+  if (!blob) return;
+  const url = URL.createObjectURL(blob);
+  make("a", { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 

@@ -2,11 +2,8 @@
 // a sheet with depths of its own. That takes some nanoseconds a point, with a graphics card or
 // without, where renderers in software take microseconds.
 import * as three from "three";
-import { kSurfaceLayer } from "./depth_shading";
+import { kFullVertex, kSurfaceLayer } from "./depth_shading";
 
-const kVertex = `
-varying vec2 vAt;
-void main() { vAt = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
 const kFragment = `
 uniform sampler2D uColour;
 uniform sampler2D uDepth;
@@ -45,7 +42,7 @@ export class Splats {
   private readonly material: three.ShaderMaterial;
 
   constructor() {
-    this.material = new three.ShaderMaterial({ vertexShader: kVertex, fragmentShader: kFragment,
+    this.material = new three.ShaderMaterial({ vertexShader: kFullVertex, fragmentShader: kFragment,
       uniforms: { uColour: { value: null }, uDepth: { value: null } } });
     this.object = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
     this.object.frustumCulled = false;

@@ -4,16 +4,15 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Axes } from "./axes";
 import { isDark } from "./colours";
 import type { Clock } from "./clock";
-import { make } from "./dom";
-import { nearestThatSees } from "./camera_fit";
+import { make, ofRun } from "./dom";
 import { Detail } from "./detail";
 import { Painter } from "./painter";
-import { PaneCamera } from "./pane_camera";
+import { PaneCamera, nearestThatSees } from "./pane_camera";
 import { needsTwoSheets, stageHeight_px } from "./paper";
 import { kAim_px, kPointer_px, listenToClicks, moveByKey, pick } from "./pick";
 import { Pointing } from "./pointing";
 import { kGistRatio, type Layers, type RunScene } from "./run_scene";
-import { savePng } from "./save";
+import { saveFile } from "./save";
 import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
 
@@ -37,7 +36,6 @@ export class Stage {
   private readonly detail = new Detail(() => this.request());
   private isFramed = false;
   private isPrinted = false;
-  private follows = false;
   private readonly pointing: Pointing;
   private axes: Axes[] = []; // of each pane
   private readonly swipe = new Swipe(() => this.invalidate());
@@ -104,7 +102,7 @@ export class Stage {
     this.axes = scenes.map(() => new Axes());
     this.labels.replaceChildren(...scenes.map((scene, i) => make("div", { class: "pane" },
       this.scenes.length > 1
-        ? make("span", { class: `chip run-${scene.flight.index}` }, scene.flight.data.label)
+        ? ofRun("chip", scene.flight.index, scene.flight.data.label)
         : null, this.axes[i].element)));
     this.resize();
   }
@@ -158,7 +156,7 @@ export class Stage {
   private save() {
     this.detail.insist();
     this.draw(); // in this very task, or the browser would have cleared the canvas
-    savePng(this.canvas, this.name);
+    this.canvas.toBlob((blob) => saveFile(blob, `${this.name}.png`));
   }
 
   private handleKey(event: KeyboardEvent) {
@@ -182,19 +180,6 @@ export class Stage {
     const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
     this.pointing.tell(
       pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
-  }
-
-  setFollows(follows: boolean) {
-    this.follows = follows;
-    if (follows && this.shown.length > 0) {
-      const pane = this.pane(this.shown[0]);
-      const target = pane.inFirst(this.shown[0].vehicle.position);
-      const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-      this.camera.position.copy(target).addScaledVector(direction, 14 * pane.scale);
-      this.controls.target.copy(target);
-      this.controls.update();
-    }
-    this.invalidate();
   }
 
   setTheme() {
@@ -278,7 +263,6 @@ export class Stage {
     this.painter.fitCanvas(clientWidth, total, ratio);
     const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
-    if (this.follows && this.shown.length > 0) this.moveAlong(pxPerTan);
     for (const axes of this.axes) axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
@@ -287,14 +271,5 @@ export class Stage {
     });
     if (isWhole) this.painter.wait();
     this.detail.drawn(performance.now() - begin);
-  }
-
-  /** Keeps the camera's place beside the first vehicle. */
-  private moveAlong(pxPerTan: number) {
-    const lead = this.shown[0];
-    lead.show(this.clock, this.cameraOf(lead), pxPerTan, false);
-    const step = this.pane(lead).inFirst(lead.vehicle.position).sub(this.controls.target);
-    this.camera.position.add(step);
-    this.controls.target.add(step);
   }
 }

@@ -5,8 +5,11 @@ import type { RunData } from "./data";
 
 export function makeVehicle({ rotors, radius_m: r }: RunData): three.Group {
   const group = new three.Group();
-  const dark = new three.MeshLambertMaterial({ color: colourOf("hull") });
-  const front = new three.MeshLambertMaterial({ color: colourOf("front_rotors"),
+  // as the ghost of a structure, so that one shader is compiled for both
+  const like = { flatShading: true, side: three.DoubleSide, forceSinglePass: true,
+    transparent: true };
+  const dark = new three.MeshLambertMaterial({ ...like, color: colourOf("hull") });
+  const front = new three.MeshLambertMaterial({ ...like, color: colourOf("front_rotors"),
     emissive: 0x6b2600 });
   const disc = new three.MeshBasicMaterial(
     { color: colourOf("rear_rotors"), transparent: true, opacity: 0.45, depthWrite: false,
