@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -54,12 +55,12 @@ double least_p_holm(const Contrast& contrast);
 /// A method in a scenario by a metric.
 struct MethodFigure {
   std::size_t scenario = 0;  // indices into Comparison's lists
-  std::size_t metric = 0;    // of run_metrics()
+  std::size_t metric = 0;
   std::size_t method = 0;
   std::size_t runs = 0;
-  MeanEstimate estimate;       // over those that are finite; n = 0: none
-  std::optional<double> rank;  // mean over the seeds that all methods have; 1 is best, ties share
-  std::optional<Contrast> contrast;  // none for the baseline
+  MeanEstimate estimate = {};             // over those that are finite; n = 0: none
+  std::optional<double> rank = {};        // mean over the seeds that all methods have; 1 is best
+  std::optional<Contrast> contrast = {};  // none for the baseline
 };
 
 /// Mean rank of a method by a metric over all scenarios and seeds that all methods have.
@@ -71,7 +72,7 @@ struct OverallRank {
 };
 
 struct Comparison {
-  std::vector<RunMetric> metrics;  // metrics_of() all runs; figures and ranks hold indices of it
+  std::vector<RunMetric> metrics;  // metrics_of() all runs
   std::vector<std::string> scenarios;
   std::vector<std::string> methods;
   std::size_t baseline = 0;

@@ -210,17 +210,18 @@ CoverageCurve straight_line(int views) {
   return curve;
 }
 
-TEST(AreaUnderCoverage, OfALineIsItsMiddle) {
+/// Surface counts from the view that saw it: each share lasts until the next view.
+TEST(AreaUnderCoverage, IsThatOfSteps) {
   const CoverageCurve curve = straight_line(8);
   for (const auto& [effort, length] :
        {std::pair{Effort::views, 8.0}, {Effort::metres, 16.0}, {Effort::seconds, 32.0}}) {
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, length), 0.4, 1e-12);
-    EXPECT_NEAR(area_under_coverage(curve, effort, 1, length), 0.2, 1e-12);
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, length), 0.35, 1e-12);
+    EXPECT_NEAR(area_under_coverage(curve, effort, 1, length), 0.175, 1e-12);
     EXPECT_NEAR(area_under_coverage(curve, effort, 2, length), 1.0, 1e-12);
-    // a budget within a step: the line up to there
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 0.3 * length), 0.12, 1e-12);
-    // and past the end, where coverage stays: (0.4 + 0.8) / 2
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 2.0 * length), 0.6, 1e-12);
+    // a budget of 2.4 views: (0.1 + 0.4 * 0.2) / 2.4
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 0.3 * length), 0.075, 1e-12);
+    // and past the end, where coverage stays: (0.35 + 0.8) / 2
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 2.0 * length), 0.575, 1e-12);
   }
 }
 
@@ -229,7 +230,7 @@ TEST(AreaUnderCoverage, AStepWithoutEffortHasNoArea) {
   curve.coverage = {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}};
   curve.metres = {0.0, 0.0, 10.0};
   curve.seconds = {0.0, 1.0, 2.0};
-  EXPECT_NEAR(area_under_coverage(curve, Effort::metres, 0, 10.0), 0.75, 1e-12);
+  EXPECT_NEAR(area_under_coverage(curve, Effort::metres, 0, 10.0), 0.5, 1e-12);
 }
 
 TEST(AreaUnderCoverage, OfTheProfileAloneIsItsCoverage) {
