@@ -8,9 +8,7 @@
 #include <optional>
 
 #include "sim/core/error.hpp"
-#include "tools/figures/flight_figures.hpp"
 #include "tools/figures/group_figures.hpp"
-#include "tools/figures/names.hpp"
 #include "tools/figures/run_figures.hpp"
 
 namespace gnbv {
