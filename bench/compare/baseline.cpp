@@ -23,7 +23,7 @@ constexpr std::string_view kCoverage = "coverage_";
 constexpr std::array<const char*, 3> kBetterNames = {"higher", "lower", "same"};
 constexpr std::array<const char*, 3> kVerdictNames = {"kept", "better", "regressed"};
 
-std::vector<BaselineMetric> metrics_of(const RunFigures& run) {
+std::vector<BaselineMetric> gated_metrics(const RunFigures& run) {
   std::vector<BaselineMetric> metrics;
   const auto share = [&](const std::string& name, double value) {
     metrics.push_back({name, value, 0.02, Better::higher});
@@ -83,7 +83,7 @@ class File {
         .of = {text({"of", "scenario"}), text({"of", "structure"}), text({"of", "utility"}),
                text({"of", "preset"}), seed(), text({"of", "version"})},
         .termination = text({"termination"})};
-    for (const BaselineMetric& known : metrics_of({})) {
+    for (const BaselineMetric& known : gated_metrics({})) {
       baseline.metrics.push_back(metric(known.name));
     }
     for (const auto& [name, value] : at({"metrics"}).items()) {
@@ -168,7 +168,7 @@ GateVerdict judge(const BaselineMetric& metric, double now) {
 /// The baseline's metrics as they are now. Throws BadInput when the run was not scored at a size.
 std::vector<MetricChange> changes_of(const std::vector<BaselineMetric>& baseline,
                                      const RunFigures& run, const fs::path& path) {
-  const std::vector<BaselineMetric> all = metrics_of(run);
+  const std::vector<BaselineMetric> all = gated_metrics(run);
   std::vector<MetricChange> changes;
   for (const BaselineMetric& metric : baseline) {
     const auto now = find_metric(all, metric.name);
@@ -209,7 +209,7 @@ std::string to_json(const Baseline& baseline) {
 }
 
 Baseline make_baseline(const RunFigures& run) {
-  return {.of = subject_of(run), .termination = run.termination, .metrics = metrics_of(run)};
+  return {.of = subject_of(run), .termination = run.termination, .metrics = gated_metrics(run)};
 }
 
 Baseline updated_baseline(const RunFigures& run, const Baseline& before, const fs::path& path) {

@@ -12,6 +12,7 @@
 
 #include "bench/compare/run_metrics.hpp"
 #include "bench/compare/statistics.hpp"
+#include "bench/compare/text_table.hpp"
 #include "bench/score/run_figures.hpp"
 
 namespace gnbv {
@@ -96,5 +97,13 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
 /// The figure of a method, if it has one.
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
                                 std::string_view metric, std::size_t method);
+
+/// One line a scenario and method other than the baseline: what it covers at 0.05 m and how far it
+/// flies against the baseline, with intervals, p values and what they allow to say.
+std::vector<std::string> answers(const Comparison& comparison);
+
+/// A row per scenario, metric and method, then the ranks over all scenarios if there are several.
+/// The answers are the first notes; the others say what the columns are.
+TextTable comparison_table(const Comparison& comparison);
 
 }  // namespace gnbv

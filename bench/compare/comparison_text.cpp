@@ -1,5 +1,4 @@
-#include "bench/compare/comparison_text.hpp"
-
+// answers() and comparison_table() of comparison.hpp: a comparison in words and as a table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "bench/compare/comparison.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {

@@ -15,7 +15,6 @@
 namespace gnbv {
 namespace {
 
-using Kind = ColumnKind;
 using Row = std::vector<TableCell>;
 
 constexpr const char* kCut = "ours, cut";
@@ -89,91 +88,69 @@ Reached printed_in(const PaperRow& row) {
   return printed;
 }
 
-/// A table whose rows are of missions, of the paper, or of a ceiling.
-class RowTable {
- public:
-  /// With a column for each size beside the paper's that some of the runs have, and without those
-  /// of some keys.
-  RowTable(std::span<const RunFigures> runs, const std::set<std::string>& without) {
-    columns_ = {{"Utility", "utility"},
-                {"Row", "row"},
-                {"Runs", "runs", Kind::number},
-                {"Iterations", "iterations", Kind::estimate},
-                {"Entropy reduction", "entropy_reduction", Kind::estimate},
-                {"Distance (m)", "distance_m", Kind::estimate, 1},
-                {"Time (min)", "time_min", Kind::estimate, 1}};
-    std::set<double> more_m;
-    for (const RunFigures& run : runs) {
-      for (const SizedCoverage& at : run.more) more_m.insert(at.size_m);
-    }
-    std::vector<double> sizes_m(kCoverageSizes_m.begin(), kCoverageSizes_m.end());
-    sizes_m.insert(sizes_m.end(), more_m.begin(), more_m.end());
-    for (const double size_m : sizes_m) {
-      columns_.push_back(
-          {"Coverage " + size_name(size_m) + " m", coverage_key(size_m), Kind::estimate, 1, true});
-    }
-    columns_.push_back({"Of ceiling", "share_of_ceiling", Kind::estimate, 1, true});
-    columns_.push_back({"Points/voxel", "density_points_per_voxel", Kind::estimate});
-    std::erase_if(columns_, [&](const Column& column) { return without.contains(column.key); });
-    for (const Column& column : columns_) {
-      table.columns.push_back({column.head, column.key, column.kind});
-    }
+/// The columns, with one for each size beside the paper's that some of the runs have, and without
+/// those of some keys.
+std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
+                                    const std::set<std::string>& without) {
+  constexpr auto estimate = ColumnKind::estimate;
+  std::vector<TableColumn> columns = {{"Utility", "utility"},
+                                      {"Row", "row"},
+                                      {"Runs", "runs", ColumnKind::number},
+                                      {"Iterations", "iterations", estimate},
+                                      {"Entropy reduction", "entropy_reduction", estimate},
+                                      {"Distance (m)", "distance_m", estimate, 1},
+                                      {"Time (min)", "time_min", estimate, 1}};
+  std::set<double> more_m;
+  for (const RunFigures& run : runs) {
+    for (const SizedCoverage& at : run.more) more_m.insert(at.size_m);
   }
-
-  /// What all of `reached` know is estimated over them.
-  void add(const std::string& label, const std::string& kind, std::span<const Reached> reached,
-           double ceiling = 0.0) {
-    Row& row = table.rows.emplace_back();
-    for (const Column& column : columns_) row.push_back(cell(column, reached, ceiling));
-    row[0].text = label;
-    row[1].text = kind;
+  std::vector<double> sizes_m(kCoverageSizes_m.begin(), kCoverageSizes_m.end());
+  sizes_m.insert(sizes_m.end(), more_m.begin(), more_m.end());
+  for (const double size_m : sizes_m) {
+    columns.push_back(
+        {"Coverage " + size_name(size_m) + " m", coverage_key(size_m), estimate, 1, true});
   }
+  columns.push_back({"Of ceiling", "share_of_ceiling", estimate, 1, true});
+  columns.push_back({"Points/voxel", "density_points_per_voxel", estimate});
+  std::erase_if(columns, [&](const TableColumn& column) { return without.contains(column.key); });
+  return columns;
+}
 
-  void add_ours(const std::string& label, const std::string& kind,
-                const std::vector<Reached>& reached, double ceiling) {
-    add(label, kind, reached, ceiling);
-    if (columns_[2].key != "runs") return;
-    table.rows.back()[2] = {std::to_string(reached.size()), {static_cast<double>(reached.size())}};
-  }
-
-  void add_paper(const std::string& label, const PaperRow& row) {
-    add(label, "paper", std::array{printed_in(row)});
-    for (std::size_t c = 0; is_doubtful(row) && c < columns_.size(); ++c) {
-      const bool is_fine = columns_[c].key == "coverage_0.05" || columns_[c].key == "coverage_0.10";
-      if (is_fine) table.rows.back()[c].text += "†";
-    }
-  }
-
-  TextTable table;
-
- private:
-  struct Column {
-    std::string head, key;
-    Kind kind = Kind::text;
-    int decimals = 0;
-    bool is_share = false;
-  };
-
-  static TableCell cell(const Column& column, std::span<const Reached> reached, double ceiling) {
-    const bool is_of_ceiling = column.key == "share_of_ceiling";
-    if (is_of_ceiling && ceiling <= 0.0) return {};
+/// A row of what all of `reached` know, estimated over them.
+void add_row(const std::string& label, const std::string& kind, const std::vector<Reached>& reached,
+             TextTable& table) {
+  Row& row = table.rows.emplace_back(Row{{label}, {kind}});
+  for (const TableColumn& column : std::span(table.columns).subspan(row.size())) {
     std::vector<double> values;
     for (const Reached& one : reached) {
-      const auto at = one.find(is_of_ceiling ? "coverage_0.05" : column.key);
-      if (at != one.end()) values.push_back(is_of_ceiling ? at->second / ceiling : at->second);
+      if (const auto at = one.find(column.key); at != one.end()) values.push_back(at->second);
     }
-    if (values.empty() || values.size() < reached.size()) return {};
-    return estimate_cell(estimate_mean(values), column.decimals, column.is_share ? 100.0 : 1.0,
-                         column.is_share ? "%" : "");
+    const bool is_known = !values.empty() && values.size() == reached.size();
+    row.push_back(!is_known
+                      ? TableCell{}
+                      : estimate_cell(estimate_mean(values), column.decimals, column.is_share));
+    if (column.key == "runs" && kind.starts_with("ours")) {
+      row.back() = {std::to_string(reached.size()), {static_cast<double>(reached.size())}};
+    }
   }
+}
 
-  std::vector<Column> columns_;
-};
+void add_papers_row(const std::string& label, const PaperRow& row, TextTable& table) {
+  add_row(label, "paper", {printed_in(row)}, table);
+  for (std::size_t c = 0; is_doubtful(row) && c < table.columns.size(); ++c) {
+    const std::string& key = table.columns[c].key;
+    if (key == "coverage_0.05" || key == "coverage_0.10") table.rows.back()[c].text += "†";
+  }
+}
 
+/// With the share of the ceiling, where it is above 0.
 template <typename ReachedOf>
-std::vector<Reached> reached_by(const Seeds& runs, const ReachedOf& reached_of) {
+std::vector<Reached> reached_by(const Seeds& runs, double ceiling, const ReachedOf& reached_of) {
   std::vector<Reached> all;
-  for (const RunFigures* const run : runs) all.push_back(reached_of(*run));
+  for (const RunFigures* const run : runs) {
+    Reached& reached = all.emplace_back(reached_of(*run));
+    if (ceiling > 0.0) reached["share_of_ceiling"] = reached["coverage_0.05"] / ceiling;
+  }
   return all;
 }
 
@@ -218,40 +195,41 @@ std::vector<Group> groups_of(const PaperTable& paper, std::span<const RunFigures
 
 /// Ours, and ours after as many views as the paper's row took where a run took more.
 void add_ours(const std::string& name, const Seeds& runs, const PaperRow* paper, double ceiling,
-              RowTable& rows) {
-  rows.add_ours(name, "ours", reached_by(runs, at_end), ceiling);
+              TextTable& table) {
+  add_row(name, "ours", reached_by(runs, ceiling, at_end), table);
   const auto views = static_cast<std::size_t>(paper == nullptr ? 0 : paper->iterations.value_or(0));
   const bool is_longer = std::any_of(
       runs.begin(), runs.end(), [&](const RunFigures* run) { return run->curve.views() > views; });
   if (views == 0 || !is_longer) return;
-  const auto cut = reached_by(runs, [&](const RunFigures& r) { return after_views(r, views); });
-  rows.add_ours(name, kCut, cut, ceiling);
+  const auto cut = [&](const RunFigures& run) { return after_views(run, views); };
+  add_row(name, kCut, reached_by(runs, ceiling, cut), table);
 }
 
 /// The profile does not depend on the utility: one run a seed. A row a setting, and one for all
 /// settings that had the same profiles.
-void add_profiles(const std::vector<Group>& groups, double ceiling, RowTable& rows) {
+void add_profiles(const std::vector<Group>& groups, double ceiling, TextTable& table) {
+  std::map<std::string, std::map<std::uint64_t, const RunFigures*>> by_setting;
   std::vector<std::string> settings;
-  std::vector<Row> profiles;
-  for (const Group& first : groups) {
-    if (std::count(settings.begin(), settings.end(), first.setting) > 0) continue;
-    std::map<std::uint64_t, const RunFigures*> by_seed;
-    for (const Group& group : groups) {
-      if (group.setting != first.setting) continue;
-      for (const RunFigures* const run : group.runs) by_seed.emplace(run->seed, run);
-    }
-    Seeds runs;
-    for (const auto& [seed, run] : by_seed) runs.push_back(run);
-    rows.add_ours("Profile", "ours", reached_by(runs, after_profile), ceiling);
-    const Row row = rows.table.rows.back();
-    rows.table.rows.pop_back();
-    if (std::count(profiles.begin(), profiles.end(), row) > 0) continue;
-    profiles.push_back(row);
-    settings.push_back(first.setting);
+  for (const Group& group : groups) {
+    if (!by_setting.contains(group.setting)) settings.push_back(group.setting);
+    for (const RunFigures* const run : group.runs)
+      by_setting[group.setting].emplace(run->seed, run);
   }
-  for (std::size_t i = 0; i < profiles.size(); ++i) {
-    if (profiles.size() > 1) profiles[i][0].text = named("Profile", settings[i]);
-    rows.table.rows.push_back(profiles[i]);
+  const auto first = static_cast<std::ptrdiff_t>(table.rows.size());
+  std::vector<std::string> labels;
+  for (const std::string& setting : settings) {
+    Seeds runs;
+    for (const auto& [seed, run] : by_setting[setting]) runs.push_back(run);
+    add_row("Profile", "ours", reached_by(runs, ceiling, after_profile), table);
+    const auto last = table.rows.end() - 1;
+    if (std::find(table.rows.begin() + first, last, *last) == last) {
+      labels.push_back(named("Profile", setting));
+    } else {
+      table.rows.pop_back();
+    }
+  }
+  for (std::size_t i = 0; labels.size() > 1 && i < labels.size(); ++i) {
+    table.rows[static_cast<std::size_t>(first) + i][0].text = labels[i];
   }
 }
 
@@ -358,29 +336,28 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   const bool prints_time =
       std::any_of(paper.rows.begin(), paper.rows.end(),
                   [](const PaperRow& row) { return row.time_min.has_value(); });
-  RowTable rows(runs, prints_time ? std::set<std::string>{} : std::set<std::string>{"time_min"});
-  rows.table.title = paper.source;
+  TextTable table{.title = std::string(paper.source),
+                  .columns = columns_of(runs, {prints_time ? "" : "time_min"})};
   const double most = ceiling ? ceiling->leaf_outside[0] : 0.0;
   const std::vector<Group> groups = groups_of(paper, runs, settings);
   for (const PaperRow& row : paper.rows) {
     for (const Group& group : groups) {
-      if (group.utility == row.utility) add_ours(group.name, group.runs, &row, most, rows);
+      if (group.utility == row.utility) add_ours(group.name, group.runs, &row, most, table);
     }
-    rows.add_paper(std::string(row.label), row);
+    add_papers_row(std::string(row.label), row, table);
   }
   for (const Group& group : groups) {
-    if (find_row(paper, group.utility) == nullptr) {
-      add_ours(group.name, group.runs, nullptr, most, rows);
-    }
+    const bool is_papers = find_row(paper, group.utility) != nullptr;
+    if (!is_papers) add_ours(group.name, group.runs, nullptr, most, table);
   }
-  add_profiles(groups, most, rows);
-  if (paper.profile) rows.add_paper("Profile", *paper.profile);
+  add_profiles(groups, most, table);
+  if (paper.profile) add_papers_row("Profile", *paper.profile, table);
   if (ceiling && !ceiling->is_given) {
-    rows.add("Ceiling", "physical", std::array{covered(ceiling->outside)});
-    rows.add("Ceiling", "leaf filter", std::array{covered(ceiling->leaf_outside)});
+    add_row("Ceiling", "physical", {covered(ceiling->outside)}, table);
+    add_row("Ceiling", "leaf filter", {covered(ceiling->leaf_outside)}, table);
   }
-  add_notes(rows.table, paper, groups, prints_time, ceiling);
-  return rows.table;
+  add_notes(table, paper, groups, prints_time, ceiling);
+  return table;
 }
 
 TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs,
@@ -391,7 +368,7 @@ TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs
                   .columns = {{"Utility", "utility"}, {"Row", "row"}}};
   for (const double share : shares) {
     table.columns.push_back({fmt::format("{:.0f}%", 100.0 * share),
-                             fmt::format("metres_to_{:.0f}", 100.0 * share), Kind::counted});
+                             fmt::format("metres_to_{:.0f}", 100.0 * share), ColumnKind::counted});
   }
   if (runs.empty() || !ceiling || ceiling->leaf_outside[0] <= 0.0) return table;
   for (const Group& group : groups_of(paper, runs, settings)) {
@@ -412,18 +389,17 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std:
   const PaperRow* row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   if (row != nullptr && !is_papers_structure(*paper, run.structure)) row = nullptr;
   // no ceiling here: finding it may take longer than the mission
-  RowTable rows({&run, 1}, {"runs", "time_min", "share_of_ceiling"});
-  std::vector<std::string>& notes = rows.table.notes;
-  add_ours(run.utility, {&run}, has_papers_setting ? row : nullptr, 0.0, rows);
-  if (rows.table.rows.size() > 1) notes.emplace_back(kCutNote);
+  TextTable table{.columns = columns_of({&run, 1}, {"runs", "time_min", "share_of_ceiling"})};
+  add_ours(run.utility, {&run}, has_papers_setting ? row : nullptr, 0.0, table);
+  if (table.rows.size() > 1) table.notes.emplace_back(kCutNote);
   if (row != nullptr && has_papers_setting) {
-    rows.add_paper(run.utility, *row);
-    if (is_doubtful(*row)) notes.emplace_back("† as printed; hardly possible");
+    add_papers_row(run.utility, *row, table);
+    if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
   } else if (row != nullptr) {
-    notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
+    table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
   }
-  notes.push_back(runs_note(run.utility, {&run}));
-  return terminal_text(rows.table, width);
+  table.notes.push_back(runs_note(run.utility, {&run}));
+  return terminal_text(table, width);
 }
 
 }  // namespace gnbv

@@ -95,12 +95,12 @@ std::string csv_record(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-TableCell estimate_cell(const std::optional<MeanEstimate>& estimate, int decimals, double factor,
-                        std::string_view unit) {
+TableCell estimate_cell(const std::optional<MeanEstimate>& estimate, int decimals, bool is_share) {
   if (!estimate) return {};
+  const double factor = is_share ? 100.0 : 1.0;
   std::string text = grouped(factor * estimate->mean, decimals);
   if (estimate->half_width) text += " ±" + grouped(factor * *estimate->half_width, decimals);
-  return {fmt::format("{}{}", text, unit), {estimate->mean, estimate->half_width}};
+  return {is_share ? text + "%" : text, {estimate->mean, estimate->half_width}};
 }
 
 TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t shared) {

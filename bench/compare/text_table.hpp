@@ -21,6 +21,8 @@ struct TableColumn {
   std::string head;  // for people
   std::string key;   // for machines, in the unit of the plain numbers
   ColumnKind kind = ColumnKind::text;
+  int decimals = 0;       // of estimates, for people
+  bool is_share = false;  // people read it in percent
 
   bool is_right() const { return kind != ColumnKind::text; }
 };
@@ -33,9 +35,9 @@ struct TableCell {
   bool operator==(const TableCell&) const = default;
 };
 
-/// "92.8 ±0.6%" of 0.928 and 0.006 with factor 100 and unit "%"; a dash where there is no mean.
+/// "92.8 ±0.6"; a dash where there is no mean.
 TableCell estimate_cell(const std::optional<MeanEstimate>& estimate, int decimals,
-                        double factor = 1.0, std::string_view unit = "");
+                        bool is_share = false);
 
 struct TextTable {
   std::string title = {};
