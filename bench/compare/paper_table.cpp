@@ -65,18 +65,18 @@ Reached after_profile(const RunFigures& run) {
   return reached;
 }
 
-/// Coverage by the paper's sizes, times `factor`.
-Reached covered(const std::array<double, 3>& coverage, double factor = 1.0) {
+/// Coverage by the paper's sizes, as fractions of `whole`.
+Reached covered(const std::array<double, 3>& coverage, double whole = 1.0) {
   Reached reached;
   for (std::size_t i = 0; i < coverage.size(); ++i) {
-    reached[coverage_key(kCoverageSizes_m[i])] = factor * coverage[i];
+    reached[coverage_key(kCoverageSizes_m[i])] = coverage[i] / whole;
   }
   return reached;
 }
 
 Reached printed_in(const PaperRow& row) {
   Reached printed;
-  if (row.coverage_percent) printed = covered(*row.coverage_percent, 0.01);
+  if (row.coverage_percent) printed = covered(*row.coverage_percent, 100.0);
   const auto add = [&](const char* key, const auto& value) {
     if (value) printed[key] = *value;
   };

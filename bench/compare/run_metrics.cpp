@@ -17,10 +17,10 @@ using Context = MetricContext;
 
 static_assert(kScoreDistances_m[1] == 0.05);
 
-/// A figure that every run has, times `factor`.
+/// A figure that every run has.
 template <typename Number>
-auto times(double factor, Number RunFigures::*number) {
-  return [=](const RunFigures& run, const Context&) -> Value { return factor * run.*number; };
+auto figure(Number RunFigures::*number) {
+  return [=](const RunFigures& run, const Context&) -> Value { return run.*number; };
 }
 
 auto coverage_percent(std::size_t size) {
@@ -79,11 +79,11 @@ std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs) {
       {"F at 0.05 m (%)", true, 1, distance_score(100.0, [](const auto& d) { return d.at[1].f; })},
       {"Chamfer distance (mm)", false, 2,
        distance_score(1000.0, [](const auto& d) { return d.chamfer_m; })},
-      {"density (points/voxel)", true, 1, times(1.0, &RunFigures::density_points_per_voxel)},
-      {"entropy reduction (nat)", true, 0, times(1.0, &RunFigures::entropy_reduction_nat)},
-      {"views", false, 1, times(1.0, &RunFigures::iterations)},
-      {std::string(kDistanceMetric), false, 1, times(1.0, &RunFigures::straight_m)},
-      {"flight time (s)", false, 1, times(1.0, &RunFigures::flight_time_s)},
+      {"density (points/voxel)", true, 1, figure(&RunFigures::density_points_per_voxel)},
+      {"entropy reduction (nat)", true, 0, figure(&RunFigures::entropy_reduction_nat)},
+      {"views", false, 1, figure(&RunFigures::iterations)},
+      {std::string(kDistanceMetric), false, 1, figure(&RunFigures::straight_m)},
+      {"flight time (s)", false, 1, figure(&RunFigures::flight_time_s)},
   };
   for (const double share : kReachShares) {
     const std::string to = fmt::format(" to {:.0f} % of ceiling", 100.0 * share);

@@ -82,11 +82,29 @@ std::vector<std::vector<std::string>> printed_lines(const TextTable& table, cons
   return lines;
 }
 
-/// The plain columns that one of ours becomes.
-std::vector<std::string> keys_of(const TableColumn& column) {
-  if (column.kind == ColumnKind::estimate) return {column.key, column.key + "_ci95"};
-  if (column.kind == ColumnKind::counted) return {column.key, column.key + "_runs"};
-  return {column.key};
+/// The keys of the plain columns that those of a table become, each with the head of its own.
+std::vector<std::array<std::string, 2>> plain_columns(const TextTable& table) {
+  std::vector<std::array<std::string, 2>> all;
+  for (const TableColumn& column : table.columns) {
+    all.push_back({column.key, column.head});
+    if (column.kind == ColumnKind::estimate) all.push_back({column.key + "_ci95", column.head});
+    if (column.kind == ColumnKind::counted) all.push_back({column.key + "_runs", column.head});
+  }
+  return all;
+}
+
+/// The cells of a row in these: texts and numbers, null where there is none.
+std::vector<Json> plain_cells(const TextTable& table, const std::vector<TableCell>& row) {
+  std::vector<Json> all;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const ColumnKind kind = table.columns[c].kind;
+    const bool is_pair = kind == ColumnKind::estimate || kind == ColumnKind::counted;
+    if (kind == ColumnKind::text) all.emplace_back(row[c].text);
+    for (std::size_t k = 0; kind != ColumnKind::text && k < (is_pair ? 2U : 1U); ++k) {
+      all.push_back(row[c].values[k] ? Json(*row[c].values[k]) : Json(nullptr));
+    }
+  }
+  return all;
 }
 
 std::string csv_record(const std::vector<std::string>& fields) {
@@ -168,25 +186,21 @@ std::string csv_field(std::string_view text) {
 }
 
 std::string csv_text(const TextTable& table) {
-  std::vector<std::string> header;
-  for (const TableColumn& column : table.columns) {
-    for (const std::string& key : keys_of(column)) header.push_back(csv_field(key));
-  }
-  std::string text = csv_record(header);
+  std::vector<std::string> fields;
+  for (const auto& [key, head] : plain_columns(table)) fields.push_back(csv_field(key));
+  std::string text = csv_record(fields);
   for (const auto& row : table.rows) {
-    std::vector<std::string> fields;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const TableColumn& column = table.columns[c];
-      if (!column.is_right()) fields.push_back(csv_field(row[c].text));
-      for (std::size_t k = 0; column.is_right() && k < keys_of(column).size(); ++k) {
-        // the shortest decimal that reads back as the same double
-        fields.push_back(row[c].values[k] ? fmt::format("{}", *row[c].values[k]) : "");
-      }
+    fields.clear();
+    for (const Json& cell : plain_cells(table, row)) {
+      // a number is the shortest decimal that reads back as the same double
+      fields.push_back(cell.is_string()   ? csv_field(cell.get<std::string>())
+                       : cell.is_number() ? fmt::format("{}", cell.get<double>())
+                                          : "");
     }
     text += csv_record(fields);
   }
   for (const std::string& note : table.notes) {
-    std::vector<std::string> fields(header.size());
+    fields.assign(fields.size(), "");
     fields[0] = csv_field("note: " + note);
     text += csv_record(fields);
   }
@@ -194,25 +208,20 @@ std::string csv_text(const TextTable& table) {
 }
 
 std::string json_text(const TextTable& table) {
-  Json columns = Json::array(), rows = Json::array();
-  for (const TableColumn& column : table.columns) {
-    for (const std::string& key : keys_of(column)) {
-      columns.push_back({{"key", key}, {"head", column.head}});
-    }
+  const auto columns = plain_columns(table);
+  Json json = {{"title", table.title},
+               {"columns", Json::array()},
+               {"rows", Json::array()},
+               {"notes", table.notes}};
+  for (const auto& [key, head] : columns) {
+    json["columns"].push_back({{"key", key}, {"head", head}});
   }
   for (const auto& row : table.rows) {
-    Json& object = rows.emplace_back(Json::object());
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const TableColumn& column = table.columns[c];
-      if (!column.is_right()) object[column.key] = row[c].text;
-      for (std::size_t k = 0; column.is_right() && k < keys_of(column).size(); ++k) {
-        const std::optional<double>& value = row[c].values[k];
-        object[keys_of(column)[k]] = value ? Json(*value) : Json(nullptr);
-      }
-    }
+    const std::vector<Json> cells = plain_cells(table, row);
+    Json object = Json::object();
+    for (std::size_t c = 0; c < cells.size(); ++c) object[columns[c][0]] = cells[c];
+    json["rows"].push_back(object);
   }
-  const Json json = {
-      {"title", table.title}, {"columns", columns}, {"rows", rows}, {"notes", table.notes}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -81,6 +81,7 @@ TEST(PaperTable, FiguresAreThePapersAsPrintedItsDoubtfulColumnsMarked) {
                                  "-", "-", "45"}}));
   EXPECT_NE(terminal_text(paper_alone("power_plant")).find("\n† as printed"), std::string::npos);
   EXPECT_EQ(terminal_text(paper_alone("aircraft")).find("†"), std::string::npos);
+  EXPECT_EQ(cell_of(paper_alone("power_plant"), 3, "coverage_0.10").values[0], 0.695);
   EXPECT_EQ(find_paper_table("lab"), nullptr);
 }
 
