@@ -1,5 +1,8 @@
 #include "bench/compare/baseline.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,66 +19,48 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSchema = "gnbv-baseline-1";
-constexpr std::size_t kScoreIndex = 1;  // 0.05 m of kScoreDistances_m
-
-/// A metric by name: how to read it from a run, and its tolerance in a new baseline.
-struct Metric {
-  std::string_view name;
-  double (*of)(const RunFigures& run);
-  Better better;
-  double tolerance;        // absolute,
-  double tolerance_share;  // and this share of the value besides
-};
-
-constexpr double kShareTolerance = 0.02;
-constexpr double kRelativeTolerance = 0.1;
-
-constexpr std::array<Metric, 12> kGatedMetrics = {{
-    {"coverage_0.05", [](const RunFigures& r) { return r.coverage_final[0]; }, Better::higher,
-     kShareTolerance, 0.0},
-    {"coverage_0.10", [](const RunFigures& r) { return r.coverage_final[1]; }, Better::higher,
-     kShareTolerance, 0.0},
-    {"coverage_0.50", [](const RunFigures& r) { return r.coverage_final[2]; }, Better::higher,
-     kShareTolerance, 0.0},
-    {"precision", [](const RunFigures& r) { return r.distances.at[kScoreIndex].precision; },
-     Better::higher, kShareTolerance, 0.0},
-    {"recall", [](const RunFigures& r) { return r.distances.at[kScoreIndex].recall; },
-     Better::higher, kShareTolerance, 0.0},
-    {"f", [](const RunFigures& r) { return r.distances.at[kScoreIndex].f; }, Better::higher,
-     kShareTolerance, 0.0},
-    {"chamfer_m", [](const RunFigures& r) { return r.distances.chamfer_m; }, Better::lower, 0.001,
-     0.0},
-    {"density", [](const RunFigures& r) { return r.density.mean_points; }, Better::higher, 0.0,
-     kRelativeTolerance},
-    {"straight_m", [](const RunFigures& r) { return r.straight_m; }, Better::lower, 0.0,
-     kRelativeTolerance},
-    {"flight_time_s", [](const RunFigures& r) { return r.flight_time_s; }, Better::lower, 0.0,
-     kRelativeTolerance},
-    {"iterations", [](const RunFigures& r) { return static_cast<double>(r.iterations); },
-     Better::lower, 0.0, kRelativeTolerance},
-    {"entropy_reduction_nat", [](const RunFigures& r) { return r.entropy_reduction_nat; },
-     Better::higher, 0.0, kRelativeTolerance},
-}};
-
 constexpr std::string_view kCoverage = "coverage_";
+constexpr std::array<const char*, 3> kBetterNames = {"higher", "lower", "same"};
+constexpr std::array<const char*, 3> kVerdictNames = {"kept", "better", "regressed"};
 
-/// Of a run, beside the gated metrics: the coverage at each further size.
-std::string name_of_more(const SizedCoverage& at) {
-  return fmt::format("{}{}", kCoverage, size_name(at.size_m));
-}
-
-/// The value of any metric of a baseline; nothing when the run was not scored at that size.
-std::optional<double> value_of(const RunFigures& run, std::string_view name) {
-  for (const Metric& metric : kGatedMetrics) {
-    if (metric.name == name) return metric.of(run);
-  }
+std::vector<BaselineMetric> gated_metrics(const RunFigures& run) {
+  std::vector<BaselineMetric> metrics;
+  const auto share = [&](const std::string& name, double value) {
+    metrics.push_back({name, value, 0.02, Better::higher});
+  };
+  const auto amount = [&](const char* name, double value, Better better) {
+    metrics.push_back({name, value, 0.1 * std::abs(value), better});
+  };
+  const DistanceScore& at_5_cm = run.distances.at[1];
+  share("coverage_0.05", run.coverage_final[0]);
+  share("coverage_0.10", run.coverage_final[1]);
+  share("coverage_0.50", run.coverage_final[2]);
+  share("precision", at_5_cm.precision);
+  share("recall", at_5_cm.recall);
+  share("f", at_5_cm.f);
+  metrics.push_back({"chamfer_m", run.distances.chamfer_m, 0.001, Better::lower});
+  amount("density", run.density.mean_points, Better::higher);
+  amount("straight_m", run.straight_m, Better::lower);
+  amount("flight_time_s", run.flight_time_s, Better::lower);
+  amount("iterations", run.iterations, Better::lower);
+  amount("entropy_reduction_nat", run.entropy_reduction_nat, Better::higher);
   for (const SizedCoverage& at : run.more) {
-    if (name_of_more(at) == name) return at.final;
+    share(fmt::format("{}{}", kCoverage, size_name(at.size_m)), at.final);
   }
-  return std::nullopt;
+  return metrics;
 }
 
-constexpr std::array<std::string_view, 3> kBetterNames = {"higher", "lower", "same"};
+auto find_metric(const std::vector<BaselineMetric>& metrics, const std::string& name) {
+  return std::find_if(metrics.begin(), metrics.end(),
+                      [&](const BaselineMetric& metric) { return metric.name == name; });
+}
+
+/// Whether it is coverage at a size that not every run is scored at.
+bool is_sized_coverage(const std::string& name) {
+  if (!name.starts_with(kCoverage)) return false;
+  const double size_m = std::strtod(name.c_str() + kCoverage.size(), nullptr);
+  return size_m > 0.0 && name == fmt::format("{}{}", kCoverage, size_name(size_m));
+}
 
 BaselineSubject subject_of(const RunFigures& run) {
   return {run.scenario, fs::path(run.structure).filename().string(),
@@ -89,88 +74,67 @@ class File {
   explicit File(const fs::path& path)
       : path_(path), json_(Json::parse(read_file(path), nullptr, false)) {
     if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
-    const Json& schema = at(json_, "schema", "schema");
-    if (schema != kSchema) refuse("schema", schema, fmt::format("must be \"{}\"", kSchema));
+    const std::string schema = text({"schema"});
+    if (schema != kSchema) refuse({"schema"}, fmt::format("must be \"{}\"", kSchema));
   }
 
-  BaselineSubject subject() const {
-    const Json& of = at(json_, "of", "of");
-    const Json& seed = at(of, "seed", "of.seed");
-    if (!seed.is_number_unsigned()) refuse("of.seed", seed, "is no count");
-    return {text(of, "scenario"), text(of, "structure"),     text(of, "utility"),
-            text(of, "preset"),   seed.get<std::uint64_t>(), text(of, "version")};
-  }
-
-  std::string termination() const {
-    return text_of(at(json_, "termination", "termination"), "termination");
-  }
-
-  std::vector<BaselineMetric> metrics() const {
-    const Json& all = at(json_, "metrics", "metrics");
-    std::vector<BaselineMetric> out;
-    for (const Metric& metric : kGatedMetrics)
-      out.push_back(metric_of(all, std::string(metric.name)));
-    for (const auto& [name, value] : all.items()) {
-      const auto is_it = [&name = name](const Metric& metric) { return metric.name == name; };
-      if (std::any_of(kGatedMetrics.begin(), kGatedMetrics.end(), is_it)) continue;
-      const double size_m =
-          name.starts_with(kCoverage) ? std::strtod(name.c_str() + kCoverage.size(), nullptr) : 0.0;
-      if (size_m > 0.0 && name == name_of_more({.size_m = size_m})) {
-        out.push_back(metric_of(all, name));
-      } else {
-        throw BadInput(fmt::format("{}: metrics.{}: is no metric", path_.string(), name));
-      }
+  Baseline baseline() const {
+    Baseline baseline{
+        .of = {text({"of", "scenario"}), text({"of", "structure"}), text({"of", "utility"}),
+               text({"of", "preset"}), seed(), text({"of", "version"})},
+        .termination = text({"termination"})};
+    for (const BaselineMetric& known : gated_metrics({})) {
+      baseline.metrics.push_back(metric(known.name));
     }
-    return out;
-  }
-
-  std::optional<std::string> result_sha256() const {
-    if (!json_.contains("result_sha256")) return std::nullopt;
-    return text_of(json_.at("result_sha256"), "result_sha256");
+    for (const auto& [name, value] : at({"metrics"}).items()) {
+      if (find_metric(baseline.metrics, name) != baseline.metrics.end()) continue;
+      if (!is_sized_coverage(name)) refuse({"metrics", name}, "is no metric");
+      baseline.metrics.push_back(metric(name));
+    }
+    if (json_.contains("result_sha256")) baseline.result_sha256 = text({"result_sha256"});
+    return baseline;
   }
 
  private:
-  BaselineMetric metric_of(const Json& all, const std::string& name) const {
-    const std::string key = "metrics." + name;
-    const Json& entry = at(all, name, key);
-    BaselineMetric metric{.name = name,
-                          .value = number(entry, "value", key),
-                          .tolerance = number(entry, "tolerance", key)};
-    if (metric.tolerance < 0.0) {
-      refuse(key + ".tolerance", entry.at("tolerance"), "is below 0");
-    }
-    const std::string better = text_of(at(entry, "better", key + ".better"), key + ".better");
-    const auto* const found = std::find(kBetterNames.begin(), kBetterNames.end(), better);
-    if (found == kBetterNames.end()) {
-      refuse(key + ".better", better, "must be \"higher\", \"lower\" or \"same\"");
-    }
-    metric.better = static_cast<Better>(found - kBetterNames.begin());
-    return metric;
-  }
+  using Keys = std::vector<std::string>;
 
-  const Json& at(const Json& object, const std::string& name, const std::string& key) const {
-    if (!object.is_object() || !object.contains(name)) {
-      throw BadInput(fmt::format("{}: {}: is missing", path_.string(), key));
+  const Json& at(const Keys& keys) const {
+    const Json* value = &json_;
+    for (const std::string& key : keys) {
+      if (!value->is_object() || !value->contains(key)) {
+        throw BadInput(fmt::format("{}: {}: is missing", path_.string(), fmt::join(keys, ".")));
+      }
+      value = &value->at(key);
     }
-    return object.at(name);
+    return *value;
   }
-  double number(const Json& entry, const std::string& name, const std::string& key) const {
-    const Json& value = at(entry, name, key + "." + name);
-    if (!value.is_number() || !std::isfinite(value.get<double>())) {
-      refuse(key + "." + name, value, "is no number");
-    }
+  std::string text(const Keys& keys) const {
+    if (!at(keys).is_string()) refuse(keys, "is no text");
+    return at(keys).get<std::string>();
+  }
+  std::uint64_t seed() const {
+    const Keys keys = {"of", "seed"};
+    if (!at(keys).is_number_unsigned()) refuse(keys, "is no count");
+    return at(keys).get<std::uint64_t>();
+  }
+  double number(const Keys& keys) const {
+    const Json& value = at(keys);
+    if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(keys, "is no number");
     return value.get<double>();
   }
-  std::string text_of(const Json& value, const std::string& key) const {
-    if (!value.is_string()) refuse(key, value, "is no text");
-    return value.get<std::string>();
+  BaselineMetric metric(const std::string& name) const {
+    const Keys tolerance = {"metrics", name, "tolerance"}, better = {"metrics", name, "better"};
+    const auto* const found = std::find(kBetterNames.begin(), kBetterNames.end(), text(better));
+    if (found == kBetterNames.end()) {
+      refuse(better, "must be \"higher\", \"lower\" or \"same\"");
+    }
+    if (number(tolerance) < 0.0) refuse(tolerance, "is below 0");
+    return {name, number({"metrics", name, "value"}), number(tolerance),
+            static_cast<Better>(found - kBetterNames.begin())};
   }
-  std::string text(const Json& of, const std::string& name) const {
-    return text_of(at(of, name, "of." + name), "of." + name);
-  }
-  [[noreturn]] void refuse(const std::string& key, const Json& value,
-                           const std::string& what) const {
-    throw BadInput(fmt::format("{}: {}: {} {}", path_.string(), key, value.dump(), what));
+  [[noreturn]] void refuse(const Keys& keys, const std::string& what) const {
+    throw BadInput(
+        fmt::format("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), at(keys).dump(), what));
   }
 
   fs::path path_;
@@ -201,21 +165,26 @@ GateVerdict judge(const BaselineMetric& metric, double now) {
   return gain > 0.0 && metric.better != Better::same ? GateVerdict::better : GateVerdict::regressed;
 }
 
-/// Throws BadInput when the run has no such value.
-double gated_value(const RunFigures& run, const BaselineMetric& metric, const fs::path& path) {
-  const std::optional<double> value = value_of(run, metric.name);
-  if (value) return *value;
-  throw BadInput(
-      fmt::format("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
-                  path.string(), metric.name));
+/// The baseline's metrics as they are now. Throws BadInput when the run was not scored at a size.
+std::vector<MetricChange> changes_of(const std::vector<BaselineMetric>& baseline,
+                                     const RunFigures& run, const fs::path& path) {
+  const std::vector<BaselineMetric> all = gated_metrics(run);
+  std::vector<MetricChange> changes;
+  for (const BaselineMetric& metric : baseline) {
+    const auto now = find_metric(all, metric.name);
+    if (now == all.end()) {
+      throw BadInput(
+          fmt::format("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
+                      path.string(), metric.name));
+    }
+    changes.push_back({metric, now->value, judge(metric, now->value)});
+  }
+  return changes;
 }
 
 }  // namespace
 
-Baseline read_baseline(const fs::path& path) {
-  const File file(path);
-  return {file.subject(), file.termination(), file.metrics(), file.result_sha256()};
-}
+Baseline read_baseline(const fs::path& path) { return File(path).baseline(); }
 
 std::string to_json(const Baseline& baseline) {
   Json metrics;
@@ -240,38 +209,19 @@ std::string to_json(const Baseline& baseline) {
 }
 
 Baseline make_baseline(const RunFigures& run) {
-  Baseline baseline{.of = subject_of(run),
-                    .termination = run.termination,
-                    .metrics = {},
-                    .result_sha256 = std::nullopt};
-  for (const Metric& metric : kGatedMetrics) {
-    const double value = metric.of(run);
-    baseline.metrics.push_back(
-        {.name = std::string(metric.name),
-         .value = value,
-         .tolerance = metric.tolerance + metric.tolerance_share * std::abs(value),
-         .better = metric.better});
-  }
-  for (const SizedCoverage& at : run.more) {
-    baseline.metrics.push_back({.name = name_of_more(at),
-                                .value = at.final,
-                                .tolerance = kShareTolerance,
-                                .better = Better::higher});
-  }
-  return baseline;
+  return {.of = subject_of(run), .termination = run.termination, .metrics = gated_metrics(run)};
 }
 
 Baseline updated_baseline(const RunFigures& run, const Baseline& before, const fs::path& path) {
   need_same(before.of, subject_of(run), false, path);
   Baseline baseline = make_baseline(run);
   if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
-  for (const BaselineMetric& known : before.metrics) gated_value(run, known, path);
+  changes_of(before.metrics, run, path);  // each of them has to be there
   for (BaselineMetric& metric : baseline.metrics) {
-    for (const BaselineMetric& known : before.metrics) {
-      if (known.name != metric.name) continue;
-      metric.tolerance = known.tolerance;
-      metric.better = known.better;
-    }
+    const auto known = find_metric(before.metrics, metric.name);
+    if (known == before.metrics.end()) continue;
+    metric.tolerance = known->tolerance;
+    metric.better = known->better;
   }
   return baseline;
 }
@@ -279,15 +229,12 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
 BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run,
                             Versions versions) {
   need_same(baseline.of, subject_of(run), versions == Versions::have_to_agree, path);
-  BaselineCheck check{.metrics = {}, .termination = run.termination};
-  for (const BaselineMetric& metric : baseline.metrics) {
-    const double now = gated_value(run, metric, path);
-    check.metrics.push_back({metric, now, judge(metric, now)});
-  }
-  check.is_termination_wrong =
-      run.termination == "collision" || run.termination != baseline.termination;
-  check.is_hash_wrong = baseline.result_sha256 && *baseline.result_sha256 != run.result_sha256;
-  return check;
+  return {.metrics = changes_of(baseline.metrics, run, path),
+          .termination = run.termination,
+          .baseline_termination = baseline.termination,
+          .is_termination_wrong =
+              run.termination == "collision" || run.termination != baseline.termination,
+          .is_hash_wrong = baseline.result_sha256 && *baseline.result_sha256 != run.result_sha256};
 }
 
 std::vector<std::string> regressed(const BaselineCheck& check) {
@@ -298,6 +245,54 @@ std::vector<std::string> regressed(const BaselineCheck& check) {
     if (change.verdict == GateVerdict::regressed) names.push_back(change.baseline.name);
   }
   return names;
+}
+
+TextTable check_table(const BaselineCheck& check) {
+  using enum ColumnKind;
+  TextTable table{.columns = {{"Verdict", "verdict"},
+                              {"Metric", "metric"},
+                              {"Baseline", "baseline", number},
+                              {"Now", "now", number},
+                              {"Change", "change", number},
+                              {"Allowed", "allowed", number}}};
+  for (const auto& [metric, now, verdict] : check.metrics) {
+    if (verdict == GateVerdict::kept) continue;
+    table.rows.push_back({{kVerdictNames[static_cast<std::size_t>(verdict)]},
+                          {metric.name},
+                          {fmt::format("{:.6g}", metric.value)},
+                          {fmt::format("{:.6g}", now)},
+                          {fmt::format("{:+.4g}", now - metric.value)},
+                          {fmt::format("{:.4g}", metric.tolerance)}});
+  }
+  if (check.is_termination_wrong) {
+    table.notes.push_back(fmt::format("regressed termination: {}, the baseline's is {}",
+                                      check.termination, check.baseline_termination));
+  }
+  if (check.is_hash_wrong) table.notes.emplace_back("regressed result_sha256: is another");
+  table.notes.push_back(fmt::format("{} of {} metrics within their tolerance",
+                                    check.metrics.size() - table.rows.size(),
+                                    check.metrics.size()));
+  return table;
+}
+
+std::string check_json(const BaselineCheck& check) {
+  Json metrics = Json::array();
+  for (const auto& [metric, now, verdict] : check.metrics) {
+    metrics.push_back({{"metric", metric.name},
+                       {"baseline", metric.value},
+                       {"now", now},
+                       {"allowed", metric.tolerance},
+                       {"verdict", kVerdictNames[static_cast<std::size_t>(verdict)]}});
+  }
+  const Json json = {{"schema", "gnbv-check-1"},
+                     {"regressed", regressed(check).size()},
+                     {"termination",
+                      {{"baseline", check.baseline_termination},
+                       {"now", check.termination},
+                       {"regressed", check.is_termination_wrong}}},
+                     {"result_sha256_differs", check.is_hash_wrong},
+                     {"metrics", metrics}};
+  return json.dump(2) + "\n";
 }
 
 }  // namespace gnbv

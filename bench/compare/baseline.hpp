@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/compare/text_table.hpp"
 #include "bench/score/run_figures.hpp"
 
 namespace gnbv {
@@ -33,9 +34,9 @@ struct BaselineSubject {
 
 struct Baseline {
   BaselineSubject of;
-  std::string termination;                   // how the mission ended
-  std::vector<BaselineMetric> metrics;       // all that there are, in make_baseline()'s order
-  std::optional<std::string> result_sha256;  // when it has to be the same: on one machine only
+  std::string termination;                        // how the mission ended
+  std::vector<BaselineMetric> metrics = {};       // all that there are, in make_baseline()'s order
+  std::optional<std::string> result_sha256 = {};  // when it has to be the same: on one machine only
 };
 
 /// A baseline file. Throws BadInput naming file and key: other schema, metric missing or unknown,
@@ -68,6 +69,7 @@ struct MetricChange {
 struct BaselineCheck {
   std::vector<MetricChange> metrics;  // in the baseline's order
   std::string termination;            // of the run
+  std::string baseline_termination;
   bool is_termination_wrong = false;  // not the baseline's, or a collision, which never is right
   bool is_hash_wrong = false;
 };
@@ -80,5 +82,11 @@ BaselineCheck check_against(const Baseline& baseline, const std::filesystem::pat
 
 /// What got worse, by name: termination, result_sha256, metrics.
 std::vector<std::string> regressed(const BaselineCheck& check);
+
+/// A row a metric that is not within its tolerance, then how many are.
+TextTable check_table(const BaselineCheck& check);
+
+/// All of it, schema gnbv-check-1.
+std::string check_json(const BaselineCheck& check);
 
 }  // namespace gnbv

@@ -14,27 +14,26 @@ constexpr double kLevel = 0.05;
 /// The values of one metric in one scenario: by method, then by seed.
 using Values = std::vector<std::map<std::uint64_t, double>>;
 
+/// Of a name, which is added where it is new.
 std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
+  const auto index = static_cast<std::size_t>(at - names.begin());
+  if (at == names.end()) names.push_back(name);
+  return index;
 }
 
-Values values_of(const Comparison& comparison, std::span<const ComparedRun> runs,
-                 const Ceilings& ceilings, std::size_t scenario, const RunMetric& metric) {
+Values values_of(Comparison& comparison, std::span<const ComparedRun> runs,
+                 const Ceilings& ceilings, std::size_t scenario, std::size_t metric) {
   Values values(comparison.methods.size());
   for (const ComparedRun& run : runs) {
     if (run.scenario != comparison.scenarios[scenario]) continue;
-    MetricContext context{.ceiling = {}, .budgets = comparison.budgets[scenario]};
+    MetricContext context{.budgets = comparison.budgets[scenario]};
     const auto ceiling = ceilings.find({run.scenario, run.method});
     if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
-    const auto value = metric.value(run.figures, context);
+    const auto value = comparison.metrics[metric].value(run.figures, context);
     if (!value) continue;
-    const auto method =
-        std::find(comparison.methods.begin(), comparison.methods.end(), run.method) -
-        comparison.methods.begin();
-    const bool is_new = values[static_cast<std::size_t>(method)].emplace(run.seed, *value).second;
+    auto& of_method = values[index_in(comparison.methods, run.method)];
+    const bool is_new = of_method.emplace(run.seed, *value).second;
     GNBV_CHECK(is_new, "two runs of {}, {}, seed {}", run.scenario, run.method, run.seed);
   }
   return values;
@@ -122,22 +121,20 @@ std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
 }
 
 void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metric,
-                 const Values& values) {
-  const auto blocks = rank_blocks(values, comparison.metrics[metric].higher_is_better);
+                 const Values& values, const std::vector<std::vector<double>>& blocks) {
   const std::size_t first = comparison.figures.size();
   for (std::size_t method = 0; method < values.size(); ++method) {
     if (values[method].empty()) continue;
-    MethodFigure figure{.scenario = scenario,
-                        .metric = metric,
-                        .method = method,
-                        .runs = values[method].size(),
-                        .estimate = estimate_of_finite(values[method]),
-                        .rank = mean_rank(blocks, method),
-                        .contrast = {}};
+    MethodFigure& figure = comparison.figures.emplace_back();
+    figure = {.scenario = scenario,
+              .metric = metric,
+              .method = method,
+              .runs = values[method].size(),
+              .estimate = estimate_of_finite(values[method]),
+              .rank = mean_rank(blocks, method)};
     if (method != comparison.baseline) {
       figure.contrast = contrast_of(values[method], values[comparison.baseline]);
     }
-    comparison.figures.push_back(figure);
   }
   std::vector<Contrast*> family;
   for (std::size_t i = first; i < comparison.figures.size(); ++i) {
@@ -146,35 +143,19 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
   judge(family);
 }
 
-using Hashes = std::map<std::pair<std::string, std::uint64_t>, std::string>;  // by scenario, seed
-
-bool are_same(const Hashes& a, const Hashes& b) {
+/// Whether two methods flew the same missions wherever both flew, once at least.
+bool flew_the_same(std::span<const ComparedRun> runs, const std::string& a, const std::string& b) {
   std::size_t shared = 0;
-  for (const auto& [mission, hash] : a) {
-    const auto other = b.find(mission);
-    if (other == b.end()) continue;
-    if (hash.empty() || other->second != hash) return false;
-    ++shared;
-  }
-  return shared > 0;
-}
-
-std::vector<std::array<std::size_t, 2>> same_missions(const std::vector<std::string>& methods,
-                                                      std::span<const ComparedRun> runs) {
-  std::vector<Hashes> hashes(methods.size());
-  for (const ComparedRun& run : runs) {
-    const auto method = std::find(methods.begin(), methods.end(), run.method) - methods.begin();
-    hashes[static_cast<std::size_t>(method)][{run.scenario, run.seed}] = run.figures.result_sha256;
-  }
-  std::vector<std::array<std::size_t, 2>> same;
-  for (std::size_t later = 1; later < methods.size(); ++later) {
-    for (std::size_t earlier = 0; earlier < later; ++earlier) {
-      if (!are_same(hashes[earlier], hashes[later])) continue;
-      same.push_back({later, earlier});
-      break;
+  for (const ComparedRun& one : runs) {
+    for (const ComparedRun& other : runs) {
+      if (one.method != a || other.method != b) continue;
+      if (one.scenario != other.scenario || one.seed != other.seed) continue;
+      const std::string& hash = one.figures.result_sha256;
+      if (hash.empty() || hash != other.figures.result_sha256) return false;
+      ++shared;
     }
   }
-  return same;
+  return shared > 0;
 }
 
 }  // namespace
@@ -187,47 +168,51 @@ double least_p_holm(const Contrast& contrast) {
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
   Comparison comparison;
+  auto& [metrics, scenarios, methods, base, budgets, figures, ranks, same_missions] = comparison;
   std::vector<const RunFigures*> all;
-  for (const ComparedRun& run : runs) all.push_back(&run.figures);
-  comparison.metrics = metrics_of(all);
   std::vector<std::vector<const RunFigures*>> by_scenario;
   for (const ComparedRun& run : runs) {
-    const std::size_t scenario = index_in(comparison.scenarios, run.scenario);
-    by_scenario.resize(comparison.scenarios.size());
+    const std::size_t scenario = index_in(scenarios, run.scenario);
+    by_scenario.resize(scenarios.size());
     by_scenario[scenario].push_back(&run.figures);
-    index_in(comparison.methods, run.method);
+    all.push_back(&run.figures);
+    index_in(methods, run.method);
   }
-  const auto base = std::find(comparison.methods.begin(), comparison.methods.end(), baseline);
-  GNBV_CHECK(base != comparison.methods.end(), "no run of the baseline '{}'", baseline);
-  comparison.baseline = static_cast<std::size_t>(base - comparison.methods.begin());
-  comparison.same_missions = same_missions(comparison.methods, runs);
-  for (const auto& of_scenario : by_scenario) {
-    comparison.budgets.push_back(common_budgets(of_scenario));
-  }
-  for (std::size_t metric = 0; metric < comparison.metrics.size(); ++metric) {
-    std::vector<std::vector<double>> blocks;
-    for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
-      const Values values = values_of(comparison, runs, ceilings, s, comparison.metrics[metric]);
-      add_figures(comparison, s, metric, values);
-      for (auto& block : rank_blocks(values, comparison.metrics[metric].higher_is_better)) {
-        blocks.push_back(std::move(block));
-      }
-    }
-    for (std::size_t method = 0; method < comparison.methods.size() && !blocks.empty(); ++method) {
-      comparison.ranks.push_back({metric, method, blocks.size(), *mean_rank(blocks, method)});
+  metrics = metrics_of(all);
+  for (const auto& of_scenario : by_scenario) budgets.push_back(common_budgets(of_scenario));
+  const std::size_t known = methods.size();
+  base = index_in(methods, baseline);
+  GNBV_CHECK(base < known, "no run of the baseline '{}'", baseline);
+  for (std::size_t later = 1; later < methods.size(); ++later) {
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      if (!flew_the_same(runs, methods[earlier], methods[later])) continue;
+      same_missions.push_back({later, earlier});
+      break;
     }
   }
-  std::stable_sort(comparison.figures.begin(), comparison.figures.end(),
+  for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
+    std::vector<std::vector<double>> of_all;
+    for (std::size_t s = 0; s < scenarios.size(); ++s) {
+      const Values values = values_of(comparison, runs, ceilings, s, metric);
+      const auto blocks = rank_blocks(values, metrics[metric].higher_is_better);
+      add_figures(comparison, s, metric, values, blocks);
+      of_all.insert(of_all.end(), blocks.begin(), blocks.end());
+    }
+    for (std::size_t method = 0; method < methods.size() && !of_all.empty(); ++method) {
+      ranks.push_back({metric, method, of_all.size(), *mean_rank(of_all, method)});
+    }
+  }
+  std::stable_sort(figures.begin(), figures.end(),
                    [](const auto& a, const auto& b) { return a.scenario < b.scenario; });
   return comparison;
 }
 
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
                                 std::string_view metric, std::size_t method) {
-  const std::size_t wanted = metric_index(metric);
   const auto figure = std::find_if(
       comparison.figures.begin(), comparison.figures.end(), [&](const MethodFigure& f) {
-        return f.scenario == scenario && f.metric == wanted && f.method == method;
+        return f.scenario == scenario && comparison.metrics[f.metric].name == metric &&
+               f.method == method;
       });
   return figure == comparison.figures.end() ? nullptr : &*figure;
 }

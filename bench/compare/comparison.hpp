@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "bench/compare/run_metrics.hpp"
 #include "bench/compare/statistics.hpp"
+#include "bench/compare/text_table.hpp"
 #include "bench/score/run_figures.hpp"
 
 namespace gnbv {
@@ -54,12 +56,12 @@ double least_p_holm(const Contrast& contrast);
 /// A method in a scenario by a metric.
 struct MethodFigure {
   std::size_t scenario = 0;  // indices into Comparison's lists
-  std::size_t metric = 0;    // of run_metrics()
+  std::size_t metric = 0;
   std::size_t method = 0;
   std::size_t runs = 0;
-  MeanEstimate estimate;       // over those that are finite; n = 0: none
-  std::optional<double> rank;  // mean over the seeds that all methods have; 1 is best, ties share
-  std::optional<Contrast> contrast;  // none for the baseline
+  MeanEstimate estimate = {};             // over those that are finite; n = 0: none
+  std::optional<double> rank = {};        // mean over the seeds that all methods have; 1 is best
+  std::optional<Contrast> contrast = {};  // none for the baseline
 };
 
 /// Mean rank of a method by a metric over all scenarios and seeds that all methods have.
@@ -71,7 +73,7 @@ struct OverallRank {
 };
 
 struct Comparison {
-  std::vector<RunMetric> metrics;  // metrics_of() all runs; figures and ranks hold indices of it
+  std::vector<RunMetric> metrics;  // metrics_of() all runs
   std::vector<std::string> scenarios;
   std::vector<std::string> methods;
   std::size_t baseline = 0;
@@ -95,5 +97,13 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
 /// The figure of a method, if it has one.
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
                                 std::string_view metric, std::size_t method);
+
+/// One line a scenario and method other than the baseline: what it covers at 0.05 m and how far it
+/// flies against the baseline, with intervals, p values and what they allow to say.
+std::vector<std::string> answers(const Comparison& comparison);
+
+/// A row per scenario, metric and method, then the ranks over all scenarios if there are several.
+/// The answers are the first notes; the others say what the columns are.
+TextTable comparison_table(const Comparison& comparison);
 
 }  // namespace gnbv

@@ -1,22 +1,23 @@
-#include "bench/compare/comparison_text.hpp"
-
+// answers() and comparison_table() of comparison.hpp: a comparison in words and as a table.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "bench/compare/comparison.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
 
+using Row = std::vector<TableCell>;
+
 /// p values below what anybody reads are not spelt out.
 std::string p_text(double p) { return p < 0.001 ? "< 0.001" : fmt::format("{:.3f}", p); }
-
-std::string number(double value, int decimals) { return grouped(value, decimals); }
 
 std::string verdict_words(const Contrast& contrast) {
   switch (contrast.verdict) {
@@ -36,39 +37,39 @@ std::string verdict_words(const Contrast& contrast) {
 }
 
 /// "95 % CI 0.7 to 2.1, p = 0.062, n = 5: ...", of the size of the difference.
-std::string evidence(const Contrast& contrast, int decimals, const std::string& unit) {
+std::string evidence(const Contrast& contrast, const std::string& unit) {
   const MeanEstimate& d = contrast.difference;
   if (!d.half_width) return verdict_words(contrast);
   const double size = std::abs(d.mean);
   const bool is_adjusted = contrast.p_holm != contrast.p;
-  return fmt::format("95 % CI {} to {}{}, p = {}{}, n = {}: {}",
-                     number(size - *d.half_width, decimals), number(size + *d.half_width, decimals),
-                     unit, p_text(contrast.p_holm), is_adjusted ? " after Holm" : "",
-                     contrast.pairs, verdict_words(contrast));
+  return fmt::format("95 % CI {} to {}{}, p = {}{}, n = {}: {}", grouped(size - *d.half_width, 1),
+                     grouped(size + *d.half_width, 1), unit, p_text(contrast.p_holm),
+                     is_adjusted ? " after Holm" : "", contrast.pairs, verdict_words(contrast));
+}
+
+/// Why nothing is said of a difference, behind words of it; nothing where something is.
+std::optional<std::string> as_much(const Contrast& contrast, const std::string& words) {
+  if (contrast.verdict == Verdict::equal) return words;
+  if (contrast.verdict != Verdict::untested || contrast.difference.mean != 0.0) return std::nullopt;
+  return fmt::format("{} ({})", words, verdict_words(contrast));
 }
 
 std::string coverage_answer(const Contrast& contrast, const std::string& baseline) {
-  if (contrast.verdict == Verdict::equal) return fmt::format("covers as much as {}", baseline);
-  if (contrast.verdict == Verdict::untested && contrast.difference.mean == 0.0) {
-    return fmt::format("covers as much as {} ({})", baseline, verdict_words(contrast));
-  }
+  if (auto same = as_much(contrast, "covers as much as " + baseline)) return *same;
   const double points = contrast.difference.mean;
-  return fmt::format("covers {} points {} than {} at 0.05 m ({})", number(std::abs(points), 1),
-                     points < 0.0 ? "less" : "more", baseline, evidence(contrast, 1, ""));
+  return fmt::format("covers {} points {} than {} at 0.05 m ({})", grouped(std::abs(points), 1),
+                     points < 0.0 ? "less" : "more", baseline, evidence(contrast, ""));
 }
 
 std::string distance_answer(const Contrast& contrast) {
-  if (contrast.verdict == Verdict::equal) return "in as many metres";
-  if (contrast.verdict == Verdict::untested && contrast.difference.mean == 0.0) {
-    return fmt::format("in as many metres ({})", verdict_words(contrast));
-  }
+  if (auto same = as_much(contrast, "in as many metres")) return *same;
   const double metres = contrast.difference.mean;
   const std::string share =
       contrast.baseline_mean > 0.0
           ? fmt::format(", {:.0f} %", 100.0 * std::abs(metres) / contrast.baseline_mean)
           : "";
-  return fmt::format("in {} m {}{} ({})", number(std::abs(metres), 1),
-                     metres < 0.0 ? "less" : "more", share, evidence(contrast, 1, " m"));
+  return fmt::format("in {} m {}{} ({})", grouped(std::abs(metres), 1),
+                     metres < 0.0 ? "less" : "more", share, evidence(contrast, " m"));
 }
 
 std::string verdict_cell(const Contrast& contrast, bool higher_is_better) {
@@ -90,54 +91,46 @@ std::string verdict_cell(const Contrast& contrast, bool higher_is_better) {
   return "not significant";
 }
 
-using Row = std::vector<TableCell>;
-
-TableCell nothing() { return {.text = "-"}; }
-
-TableCell estimate_cell(const MeanEstimate& e, int decimals) {
-  if (e.n == 0) return nothing();
-  std::string text = number(e.mean, decimals);
-  if (e.half_width) text += " ±" + number(*e.half_width, decimals);
-  return {.text = text, .values = {e.mean, e.half_width}};
+/// "8", or "5 of 8" where the others did not get there.
+TableCell count_cell(std::size_t n, std::size_t runs) {
+  return {n == runs ? std::to_string(n) : fmt::format("{} of {}", n, runs),
+          {static_cast<double>(n), static_cast<double>(runs)}};
 }
 
-void add_contrast(Row& row, const Comparison& comparison, const MethodFigure& figure) {
+TableCell rank_cell(const std::optional<double>& rank) {
+  return rank ? TableCell{fmt::format("{:.2f}", *rank), {rank}} : TableCell{};
+}
+
+TableCell mean_cell(const MeanEstimate& estimate, int decimals) {
+  return estimate.n == 0 ? TableCell{} : estimate_cell(estimate, decimals);
+}
+
+/// Difference, p, Holm and verdict.
+Row contrast_cells(const Comparison& comparison, const MethodFigure& figure) {
   if (!figure.contrast) {
-    row.insert(row.end(), 3, nothing());
-    row.push_back({.text = figure.method == comparison.baseline ? "baseline" : "no common seed"});
-    return;
+    const bool is_baseline = figure.method == comparison.baseline;
+    return {{}, {}, {}, {is_baseline ? "baseline" : "no common seed"}};
   }
   const RunMetric& metric = comparison.metrics[figure.metric];
   const Contrast& c = *figure.contrast;
-  row.push_back(estimate_cell(c.difference, metric.decimals));
+  const auto p_cell = [&](double p) {
+    return c.pairs < 2 ? TableCell{} : TableCell{p_text(p), {p}};
+  };
+  TableCell difference = mean_cell(c.difference, metric.decimals);
   if (c.difference.n > 0 && c.difference.n < c.pairs) {
-    row.back().text += fmt::format(" (n = {})", c.difference.n);
+    difference.text += fmt::format(" (n = {})", c.difference.n);
   }
-  if (c.pairs < 2) {
-    row.insert(row.end(), 2, nothing());
-  } else {
-    row.push_back({.text = p_text(c.p), .values = {c.p, std::nullopt}});
-    row.push_back({.text = p_text(c.p_holm), .values = {c.p_holm, std::nullopt}});
-  }
-  row.push_back({.text = verdict_cell(c, metric.higher_is_better)});
-}
-
-/// "8", or "5 of 8" where the others did not get there.
-TableCell count_cell(std::size_t n, std::size_t runs) {
-  return {.text = n == runs ? std::to_string(n) : fmt::format("{} of {}", n, runs),
-          .values = {static_cast<double>(n), static_cast<double>(runs)}};
+  return {difference, p_cell(c.p), p_cell(c.p_holm), {verdict_cell(c, metric.higher_is_better)}};
 }
 
 Row figure_row(const Comparison& comparison, const MethodFigure& figure) {
   const RunMetric& metric = comparison.metrics[figure.metric];
   Row row = {
-      {.text = comparison.scenarios[figure.scenario]},
-      {.text = std::string(metric.name)},
-      {.text = comparison.methods[figure.method]},
-      count_cell(figure.estimate.n, figure.runs),
-      estimate_cell(figure.estimate, metric.decimals),
-      figure.rank ? TableCell{fmt::format("{:.2f}", *figure.rank), {figure.rank, {}}} : nothing()};
-  add_contrast(row, comparison, figure);
+      {comparison.scenarios[figure.scenario]},     {metric.name},
+      {comparison.methods[figure.method]},         count_cell(figure.estimate.n, figure.runs),
+      mean_cell(figure.estimate, metric.decimals), rank_cell(figure.rank)};
+  const Row cells = contrast_cells(comparison, figure);
+  row.insert(row.end(), cells.begin(), cells.end());
   return row;
 }
 
@@ -150,27 +143,25 @@ bool is_reached(const Comparison& comparison, const MethodFigure& figure) {
                      });
 }
 
+/// Whether shares of it, and efforts to reach them, are known of any run.
 bool has_ceiling(const Comparison& comparison) {
-  return std::any_of(comparison.figures.begin(), comparison.figures.end(),
-                     [&](const MethodFigure& figure) {
-                       const RunMetric& metric = comparison.metrics[figure.metric];
-                       return metric.name.starts_with("share of ceiling") && figure.estimate.n > 0;
-                     });
+  return std::any_of(
+      comparison.figures.begin(), comparison.figures.end(), [&](const MethodFigure& figure) {
+        return comparison.metrics[figure.metric].name.starts_with("share of ceiling");
+      });
 }
 
 /// What the efforts to reach a share of the ceiling are, and which of them nobody did.
 void add_effort_notes(std::vector<std::string>& notes, const Comparison& comparison) {
+  if (!has_ceiling(comparison)) return;
   std::map<std::size_t, std::vector<std::string>> missed;  // by scenario
-  bool has_efforts = false;
   for (const MethodFigure& figure : comparison.figures) {
-    const RunMetric& metric = comparison.metrics[figure.metric];
-    has_efforts = has_efforts || metric.may_be_missed;
-    if (!metric.name.starts_with("views to ") || is_reached(comparison, figure)) continue;
+    const std::string& metric = comparison.metrics[figure.metric].name;
+    if (!metric.starts_with("views to ") || is_reached(comparison, figure)) continue;
     std::vector<std::string>& names = missed[figure.scenario];
-    const std::string share = metric.name.substr(std::string_view("views to ").size());
+    const std::string share = metric.substr(std::string_view("views to ").size());
     if (std::find(names.begin(), names.end(), share) == names.end()) names.push_back(share);
   }
-  if (!has_efforts) return;
   notes.emplace_back(
       "to N % of ceiling: until the cloud first covered so much at 0.05 m of what it can hold; n: "
       "how many runs got there, the mean is over these; difference: over the seeds where both "
@@ -182,19 +173,6 @@ void add_effort_notes(std::vector<std::string>& notes, const Comparison& compari
     notes.push_back(fmt::format("{}: no run got to {}", comparison.scenarios[scenario],
                                 fmt::join(names, ", ")));
   }
-}
-
-Row rank_row(const Comparison& comparison, const OverallRank& rank) {
-  return {{.text = "all scenarios"},
-          {.text = std::string(comparison.metrics[rank.metric].name)},
-          {.text = comparison.methods[rank.method]},
-          count_cell(rank.blocks, rank.blocks),
-          nothing(),
-          {fmt::format("{:.2f}", rank.rank), {rank.rank, std::nullopt}},
-          nothing(),
-          nothing(),
-          nothing(),
-          {.text = "-"}};
 }
 
 /// What so few seeds cannot say, once for all contrasts alike.
@@ -282,22 +260,28 @@ TextTable comparison_table(const Comparison& comparison) {
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(comparison.baseline));
   table.title = fmt::format("{} against {}", fmt::join(others, ", "),
                             comparison.methods[comparison.baseline]);
-  table.columns = {{"Scenario", "scenario", text},
-                   {"Metric", "metric", text},
-                   {"Method", "method", text},
+  table.columns = {{"Scenario", "scenario"},
+                   {"Metric", "metric"},
+                   {"Method", "method"},
                    {"n", "n", counted},
                    {"Mean", "mean", estimate},
                    {"Rank", "rank", number},
                    {"Difference", "difference", estimate},
                    {"p", "p", number},
                    {"Holm", "p_holm", number},
-                   {"Verdict", "verdict", text}};
+                   {"Verdict", "verdict"}};
   for (const MethodFigure& figure : comparison.figures) {
     if (is_reached(comparison, figure)) table.rows.push_back(figure_row(comparison, figure));
   }
   if (comparison.scenarios.size() > 1) {
-    for (const OverallRank& rank : comparison.ranks) {
-      table.rows.push_back(rank_row(comparison, rank));
+    for (const auto& [metric, method, blocks, rank] : comparison.ranks) {
+      table.rows.push_back({{"all scenarios"},
+                            {comparison.metrics[metric].name},
+                            {comparison.methods[method]},
+                            count_cell(blocks, blocks),
+                            {},
+                            rank_cell(rank)});
+      table.rows.back().resize(table.columns.size());
     }
   }
   table.notes = notes(comparison);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
 
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
@@ -13,98 +12,35 @@ namespace {
 using Percents = std::array<double, 3>;
 
 // Almadhoun et al. 2019. The densities of Table 3 are in the text above it.
+// utility, label, iterations, entropy reduction, distance (m), time (min), coverage (%), density
 constexpr std::array<PaperRow, 3> kAircraftRows = {{
-    {.utility = "bircher",
-     .label = "Bircher [17]",
-     .iterations = 577,
-     .entropy_reduction = 10504,
-     .distance_m = 1347.6,
-     .coverage_percent = Percents{86.5, 93.9, 98.8}},
-    {.utility = "isler",
-     .label = "Isler [29]",
-     .iterations = 585,
-     .entropy_reduction = 10846,
-     .distance_m = 1500.9,
-     .coverage_percent = Percents{85.1, 92.0, 98.5}},
-    {.utility = "proposed",
-     .label = "Proposed",
-     .iterations = 635,
-     .entropy_reduction = 10970,
-     .distance_m = 1396.5,
-     .coverage_percent = Percents{94.1, 97.2, 99.8}},
+    {"bircher", "Bircher [17]", 577, 10504, 1347.6, {}, Percents{86.5, 93.9, 98.8}},
+    {"isler", "Isler [29]", 585, 10846, 1500.9, {}, Percents{85.1, 92.0, 98.5}},
+    {"proposed", "Proposed", 635, 10970, 1396.5, {}, Percents{94.1, 97.2, 99.8}},
 }};
+constexpr PaperRow kAircraftProfile = {
+    "", "Profile", {}, {}, 370.0, {}, Percents{15.3, 63.9, 87.3}};
 
 constexpr std::array<PaperRow, 3> kPowerPlantRows = {{
-    {.utility = "bircher",
-     .label = "Bircher [17]",
-     .iterations = 162,
-     .entropy_reduction = 14574,
-     .distance_m = 479.5,
-     .coverage_percent = Percents{95.9, 87.0, 98.5},
-     .density_points_per_voxel = 140},
-    {.utility = "isler",
-     .label = "Isler [29]",
-     .iterations = 360,
-     .entropy_reduction = 24425,
-     .distance_m = 945.4,
-     .coverage_percent = Percents{95.7, 86.3, 98.1},
-     .density_points_per_voxel = 152},
-    {.utility = "proposed",
-     .label = "Proposed",
-     .iterations = 210,
-     .entropy_reduction = 23983,
-     .distance_m = 469.5,
-     .coverage_percent = Percents{97.5, 93.6, 98.9},
-     .density_points_per_voxel = 177},
+    {"bircher", "Bircher [17]", 162, 14574, 479.5, {}, Percents{95.9, 87.0, 98.5}, 140},
+    {"isler", "Isler [29]", 360, 24425, 945.4, {}, Percents{95.7, 86.3, 98.1}, 152},
+    {"proposed", "Proposed", 210, 23983, 469.5, {}, Percents{97.5, 93.6, 98.9}, 177},
 }};
+constexpr PaperRow kPowerPlantProfile = {
+    "", "Profile", {}, {}, 512.0, {}, Percents{15.1, 69.5, 86.3}};
 
-constexpr std::array<PaperRow, 1> kLabModelRows = {{
-    {.utility = "proposed",
-     .label = "Proposed",
-     .iterations = 40,
-     .entropy_reduction = 30140,
-     .distance_m = 32.0,
-     .time_min = 8.0,
-     .density_points_per_voxel = 33},
-}};
-
-constexpr std::array<PaperRow, 1> kLabAirplaneRows = {{
-    {.utility = "proposed",
-     .label = "Proposed",
-     .iterations = 60,
-     .entropy_reduction = 28949,
-     .distance_m = 55.4,
-     .time_min = 15.0,
-     .density_points_per_voxel = 45},
-}};
+constexpr std::array<PaperRow, 1> kLabModelRows = {
+    {{"proposed", "Proposed", 40, 30140, 32.0, 8.0, {}, 33}}};
+constexpr std::array<PaperRow, 1> kLabAirplaneRows = {
+    {{"proposed", "Proposed", 60, 28949, 55.4, 15.0, {}, 45}}};
 
 constexpr std::array<PaperTable, 4> kPaperTables = {{
-    {.scenario = "aircraft",
-     .source = "Table 2, Scenario 1 (aircraft)",
-     .rows = kAircraftRows,
-     .profile = PaperRow{.utility = "",
-                         .label = "Profile",
-                         .distance_m = 370.0,
-                         .coverage_percent = Percents{15.3, 63.9, 87.3}},
-     .mesh_sha256 = "8dfa91604a7da02bd76885312613698895d9c2f9926b68a2810eba5777f1fafb"},
-    {.scenario = "power_plant",
-     .source = "Table 3, Scenario 2 (power plant)",
-     .rows = kPowerPlantRows,
-     .profile = PaperRow{.utility = "",
-                         .label = "Profile",
-                         .distance_m = 512.0,
-                         .coverage_percent = Percents{15.1, 69.5, 86.3}},
-     .mesh_sha256 = "0a12ac4c8fd6868540ddd1e9437fc563393f2baccfee7cca76180e6e7f598d13"},
-    {.scenario = "lab_model",
-     .source = "Section 3.2.2, Scenario 3 (lab model)",
-     .rows = kLabModelRows,
-     .profile = {},
-     .mesh_sha256 = ""},
-    {.scenario = "lab_airplane",
-     .source = "Section 3.2.2, Scenario 4 (lab airplane)",
-     .rows = kLabAirplaneRows,
-     .profile = {},
-     .mesh_sha256 = ""},
+    {"aircraft", "Table 2, Scenario 1 (aircraft)", kAircraftRows, kAircraftProfile,
+     "8dfa91604a7da02bd76885312613698895d9c2f9926b68a2810eba5777f1fafb"},
+    {"power_plant", "Table 3, Scenario 2 (power plant)", kPowerPlantRows, kPowerPlantProfile,
+     "0a12ac4c8fd6868540ddd1e9437fc563393f2baccfee7cca76180e6e7f598d13"},
+    {"lab_model", "Section 3.2.2, Scenario 3 (lab model)", kLabModelRows},
+    {"lab_airplane", "Section 3.2.2, Scenario 4 (lab airplane)", kLabAirplaneRows},
 }};
 
 }  // namespace
@@ -121,6 +57,13 @@ const PaperRow* find_row(const PaperTable& paper, std::string_view utility) {
   const auto row = std::find_if(paper.rows.begin(), paper.rows.end(),
                                 [&](const PaperRow& r) { return r.utility == utility; });
   return row == paper.rows.end() ? nullptr : &*row;
+}
+
+std::string name_in_table(const PaperTable& paper, const std::string& utility) {
+  if (const PaperRow* const row = find_row(paper, utility)) return std::string(row->label);
+  if (utility == "tour") return "Tour";
+  if (utility == "oracle_views") return "Oracle, few views";
+  return utility == "oracle_metres" ? "Oracle, few metres" : utility;
 }
 
 bool is_doubtful(const PaperRow& row) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace gnbv {
@@ -24,8 +25,9 @@ struct PaperTable {
   std::string_view scenario;  // name of our scenario, and of the structure built in for it
   std::string_view source;
   std::span<const PaperRow> rows;  // in the paper's order
-  std::optional<PaperRow> profile;
-  std::string_view mesh_sha256;  // of a file that holds the paper's own structure; may be empty
+  std::optional<PaperRow> profile = {};
+  std::string_view mesh_sha256 =
+      {};  // of a file that holds the paper's own structure; may be empty
 };
 
 /// Tables 2 (aircraft) and 3 (power_plant), and section 3.2.2 (lab_model, lab_airplane).
@@ -36,6 +38,9 @@ const PaperTable* find_paper_table(std::string_view scenario);
 
 /// The row of a utility, if the table has one.
 const PaperRow* find_row(const PaperTable& paper, std::string_view utility);
+
+/// What tables call a utility: as the paper does, or by our own words.
+std::string name_in_table(const PaperTable& paper, const std::string& utility);
 
 /// Why a run of a scenario of the paper's does not stand beside it.
 constexpr std::string_view kOtherSetting =

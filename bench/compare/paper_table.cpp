@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "bench/compare/row_figures.hpp"
-#include "bench/compare/table_groups.hpp"
-#include "bench/compare/terminal_table.hpp"
+#include "bench/score/effort_to_reach.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 
@@ -18,96 +17,220 @@ namespace {
 
 using Row = std::vector<TableCell>;
 
-constexpr std::string_view kCut = "ours, cut";
+constexpr const char* kCut = "ours, cut";
 constexpr const char* kCutNote = "ours, cut: after as many views as the paper's row";
 
-/// "92.8 ±0.6%" of 0.928 and 0.006 with factor 100 and unit "%".
-TableCell cell(const std::optional<MeanEstimate>& e, int decimals, double factor = 1.0,
-               const std::string& unit = "") {
-  if (!e) return {.text = "-"};
-  std::string text = grouped(factor * e->mean, decimals);
-  if (e->half_width) text += " ±" + grouped(factor * *e->half_width, decimals);
-  return {.text = text + unit, .values = {e->mean, e->half_width}};
+/// Runs that differ in their seeds alone.
+using Seeds = std::vector<const RunFigures*>;
+
+/// What a mission had reached, or the paper prints, by the keys of columns. What is not known is
+/// not there.
+using Reached = std::map<std::string, double>;
+
+std::string coverage_key(double size_m) { return "coverage_" + size_name(size_m); }
+
+/// After so many views, or at its end if that was before. Of entropy and density only the end is
+/// known.
+Reached after_views(const RunFigures& run, std::size_t views) {
+  const CoverageCurve& curve = run.curve;
+  const bool is_cut = curve.views() > views;
+  Reached reached = {{"iterations", is_cut ? static_cast<double>(views) : run.iterations},
+                     {"distance_m", is_cut ? curve.metres[views] : run.straight_m}};
+  if (curve.seconds.size() > 1) {
+    reached["time_min"] = seconds_of_views(curve, std::min(views, curve.views())) / 60.0;
+  }
+  for (std::size_t i = 0; i < kCoverageSizes_m.size(); ++i) {
+    reached[coverage_key(kCoverageSizes_m[i])] =
+        is_cut ? curve.coverage[views][i] : run.coverage_final[i];
+  }
+  for (const SizedCoverage& at : run.more) {
+    reached[coverage_key(at.size_m)] = views < at.curve.size() ? at.curve[views] : at.final;
+  }
+  return reached;
 }
 
-std::vector<TableColumn> all_columns(const std::set<double>& more_m) {
-  using enum ColumnKind;
-  std::vector<TableColumn> columns = {{"Utility", "utility", text},
-                                      {"Row", "row", text},
-                                      {"Runs", "runs", number},
+Reached at_end(const RunFigures& run) {
+  Reached reached = after_views(run, std::numeric_limits<std::size_t>::max());
+  reached["entropy_reduction"] = run.entropy_reduction_nat;
+  reached["density_points_per_voxel"] = run.density_points_per_voxel;
+  return reached;
+}
+
+Reached after_profile(const RunFigures& run) {
+  Reached reached = {{"distance_m", run.before.profile_m}};
+  for (std::size_t i = 0; i < kCoverageSizes_m.size(); ++i) {
+    reached[coverage_key(kCoverageSizes_m[i])] = run.coverage_profile[i];
+  }
+  for (const SizedCoverage& at : run.more) reached[coverage_key(at.size_m)] = at.profile;
+  return reached;
+}
+
+/// Coverage by the paper's sizes, as fractions of `whole`.
+Reached covered(const std::array<double, 3>& coverage, double whole = 1.0) {
+  Reached reached;
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    reached[coverage_key(kCoverageSizes_m[i])] = coverage[i] / whole;
+  }
+  return reached;
+}
+
+Reached printed_in(const PaperRow& row) {
+  Reached printed;
+  if (row.coverage_percent) printed = covered(*row.coverage_percent, 100.0);
+  const auto add = [&](const char* key, const auto& value) {
+    if (value) printed[key] = *value;
+  };
+  add("iterations", row.iterations);
+  add("entropy_reduction", row.entropy_reduction);
+  add("distance_m", row.distance_m);
+  add("time_min", row.time_min);
+  add("density_points_per_voxel", row.density_points_per_voxel);
+  return printed;
+}
+
+/// The columns, with one for each size beside the paper's that some of the runs have, and without
+/// those of some keys.
+std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
+                                    const std::set<std::string>& without) {
+  constexpr auto estimate = ColumnKind::estimate;
+  std::vector<TableColumn> columns = {{"Utility", "utility"},
+                                      {"Row", "row"},
+                                      {"Runs", "runs", ColumnKind::number},
                                       {"Iterations", "iterations", estimate},
                                       {"Entropy reduction", "entropy_reduction", estimate},
-                                      {"Distance (m)", "distance_m", estimate},
-                                      {"Time (min)", "time_min", estimate},
-                                      {"Coverage 0.05 m", "coverage_0.05", estimate},
-                                      {"Coverage 0.10 m", "coverage_0.10", estimate},
-                                      {"Coverage 0.50 m", "coverage_0.50", estimate},
-                                      {"Of ceiling", "share_of_ceiling", estimate},
-                                      {"Points/voxel", "density_points_per_voxel", estimate}};
-  const auto after = std::find_if(columns.begin(), columns.end(),
-                                  [](const TableColumn& c) { return c.key == "share_of_ceiling"; });
-  std::vector<TableColumn> more;
-  for (const double size_m : more_m) {
-    const std::string name = size_name(size_m);
-    more.push_back({"Coverage " + name + " m", "coverage_" + name, estimate});
+                                      {"Distance (m)", "distance_m", estimate, 1},
+                                      {"Time (min)", "time_min", estimate, 1}};
+  std::set<double> more_m;
+  for (const RunFigures& run : runs) {
+    for (const SizedCoverage& at : run.more) more_m.insert(at.size_m);
   }
-  columns.insert(after, more.begin(), more.end());
+  std::vector<double> sizes_m(kCoverageSizes_m.begin(), kCoverageSizes_m.end());
+  sizes_m.insert(sizes_m.end(), more_m.begin(), more_m.end());
+  for (const double size_m : sizes_m) {
+    columns.push_back(
+        {"Coverage " + size_name(size_m) + " m", coverage_key(size_m), estimate, 1, true});
+  }
+  columns.push_back({"Of ceiling", "share_of_ceiling", estimate, 1, true});
+  columns.push_back({"Points/voxel", "density_points_per_voxel", estimate});
+  std::erase_if(columns, [&](const TableColumn& column) { return without.contains(column.key); });
   return columns;
 }
 
-Row all_cells(const RowFigures& f, const std::set<double>& more_m) {
-  Row row = {{.text = f.label}, {.text = f.kind}, {.text = "-"}};
-  if (f.runs) row[2] = {std::to_string(*f.runs), {static_cast<double>(*f.runs), std::nullopt}};
-  row.push_back(cell(f.iterations, 0));
-  row.push_back(cell(f.entropy_reduction, 0));
-  row.push_back(cell(f.distance_m, 1));
-  row.push_back(cell(f.time_min, 1));
-  for (std::size_t size = 0; size < f.coverage.size(); ++size) {
-    row.push_back(cell(f.coverage[size], 1, 100.0, "%"));
-    if (size < 2) row.back().text += f.mark;
+/// A row of what all of `reached` know, estimated over them.
+void add_row(const std::string& label, const std::string& kind, const std::vector<Reached>& reached,
+             TextTable& table) {
+  Row& row = table.rows.emplace_back(Row{{label}, {kind}});
+  for (const TableColumn& column : std::span(table.columns).subspan(row.size())) {
+    std::vector<double> values;
+    for (const Reached& one : reached) {
+      if (const auto at = one.find(column.key); at != one.end()) values.push_back(at->second);
+    }
+    const bool is_known = !values.empty() && values.size() == reached.size();
+    row.push_back(!is_known
+                      ? TableCell{}
+                      : estimate_cell(estimate_mean(values), column.decimals, column.is_share));
+    if (column.key == "runs" && kind.starts_with("ours")) {
+      row.back() = {std::to_string(reached.size()), {static_cast<double>(reached.size())}};
+    }
   }
-  for (const double size_m : more_m) {
-    const auto at = f.more.find(size_m);
-    row.push_back(at == f.more.end() ? TableCell{.text = "-"} : cell(at->second, 1, 100.0, "%"));
-  }
-  row.push_back(cell(f.share_of_ceiling, 1, 100.0, "%"));
-  row.push_back(cell(f.density, 0));
-  return row;
 }
 
-void drop_column(TextTable& table, std::string_view key) {
-  const auto column = std::find_if(table.columns.begin(), table.columns.end(),
-                                   [&](const TableColumn& c) { return c.key == key; });
-  GNBV_CHECK(column != table.columns.end(), "no column '{}'", key);
-  const auto at = column - table.columns.begin();
-  table.columns.erase(column);
-  for (Row& row : table.rows) row.erase(row.begin() + at);
+void add_papers_row(const std::string& label, const PaperRow& row, TextTable& table) {
+  add_row(label, "paper", {printed_in(row)}, table);
+  for (std::size_t c = 0; is_doubtful(row) && c < table.columns.size(); ++c) {
+    const std::string& key = table.columns[c].key;
+    if (key == "coverage_0.05" || key == "coverage_0.10") table.rows.back()[c].text += "†";
+  }
 }
 
-/// A row a setting, and one for all settings that had the same profiles.
-std::vector<RowFigures> our_profiles(const std::vector<TableGroup>& groups,
-                                     const std::optional<Ceiling>& ceiling,
-                                     const std::set<double>& more_m) {
-  std::vector<TableGroup> by_setting;
-  for (const TableGroup& group : groups) {
-    auto same = std::find_if(by_setting.begin(), by_setting.end(),
-                             [&](const TableGroup& g) { return g.setting == group.setting; });
-    if (same == by_setting.end()) same = by_setting.insert(same, {"", group.setting});
-    same->runs.insert(same->runs.end(), group.runs.begin(), group.runs.end());
+/// With the share of the ceiling, where it is above 0.
+template <typename ReachedOf>
+std::vector<Reached> reached_by(const Seeds& runs, double ceiling, const ReachedOf& reached_of) {
+  std::vector<Reached> all;
+  for (const RunFigures* const run : runs) {
+    Reached& reached = all.emplace_back(reached_of(*run));
+    if (ceiling > 0.0) reached["share_of_ceiling"] = reached["coverage_0.05"] / ceiling;
   }
-  std::vector<RowFigures> rows;
+  return all;
+}
+
+/// Runs of one row.
+struct Group {
+  std::string utility;
+  std::string setting;
+  std::string name;  // of the row: "Proposed, leaf_m=0.07"
+  Seeds runs = {};
+};
+
+std::string named(const std::string& name, const std::string& setting) {
+  return setting.empty() ? name : name + ", " + setting;
+}
+
+/// Those of the paper's utilities in its order, then the others in that of their first runs.
+std::vector<Group> groups_of(const PaperTable& paper, std::span<const RunFigures> runs,
+                             std::span<const std::string> settings) {
+  GNBV_CHECK(settings.empty() || settings.size() == runs.size(), "{} settings of {} runs",
+             settings.size(), runs.size());
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string& utility = runs[i].utility;
+    const std::string setting = settings.empty() ? "" : settings[i];
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+      return g.utility == utility && g.setting == setting;
+    });
+    if (group == groups.end()) {
+      group = groups.insert(groups.end(),
+                            {utility, setting, named(name_in_table(paper, utility), setting)});
+    }
+    group->runs.push_back(&runs[i]);
+  }
+  const auto place_of = [&](const Group& group) {
+    const PaperRow* const row = find_row(paper, group.utility);
+    return row == nullptr ? std::ssize(paper.rows) : row - paper.rows.data();
+  };
+  std::stable_sort(groups.begin(), groups.end(),
+                   [&](const Group& a, const Group& b) { return place_of(a) < place_of(b); });
+  return groups;
+}
+
+/// Ours, and ours after as many views as the paper's row took where a run took more.
+void add_ours(const std::string& name, const Seeds& runs, const PaperRow* paper, double ceiling,
+              TextTable& table) {
+  add_row(name, "ours", reached_by(runs, ceiling, at_end), table);
+  const auto views = static_cast<std::size_t>(paper == nullptr ? 0 : paper->iterations.value_or(0));
+  const bool is_longer = std::any_of(
+      runs.begin(), runs.end(), [&](const RunFigures* run) { return run->curve.views() > views; });
+  if (views == 0 || !is_longer) return;
+  const auto cut = [&](const RunFigures& run) { return after_views(run, views); };
+  add_row(name, kCut, reached_by(runs, ceiling, cut), table);
+}
+
+/// The profile does not depend on the utility: one run a seed. A row a setting, and one for all
+/// settings that had the same profiles.
+void add_profiles(const std::vector<Group>& groups, double ceiling, TextTable& table) {
+  std::map<std::string, std::map<std::uint64_t, const RunFigures*>> by_setting;
+  std::vector<std::string> settings;
+  for (const Group& group : groups) {
+    if (!by_setting.contains(group.setting)) settings.push_back(group.setting);
+    for (const RunFigures* const run : group.runs)
+      by_setting[group.setting].emplace(run->seed, run);
+  }
+  const auto first = static_cast<std::ptrdiff_t>(table.rows.size());
   std::vector<std::string> labels;
-  for (const TableGroup& group : by_setting) {
-    const RowFigures row = our_profile(group.runs, ceiling);
-    const auto is_same = [&](const RowFigures& other) {
-      return all_cells(other, more_m) == all_cells(row, more_m);
-    };
-    if (std::any_of(rows.begin(), rows.end(), is_same)) continue;
-    rows.push_back(row);
-    labels.push_back(group.label(row.label));
+  for (const std::string& setting : settings) {
+    Seeds runs;
+    for (const auto& [seed, run] : by_setting[setting]) runs.push_back(run);
+    add_row("Profile", "ours", reached_by(runs, ceiling, after_profile), table);
+    const auto last = table.rows.end() - 1;
+    if (std::find(table.rows.begin() + first, last, *last) == last) {
+      labels.push_back(named("Profile", setting));
+    } else {
+      table.rows.pop_back();
+    }
   }
-  for (std::size_t i = 0; i < rows.size() && rows.size() > 1; ++i) rows[i].label = labels[i];
-  return rows;
+  for (std::size_t i = 0; labels.size() > 1 && i < labels.size(); ++i) {
+    table.rows[static_cast<std::size_t>(first) + i][0].text = labels[i];
+  }
 }
 
 std::string three_percent(const std::array<double, 3>& fractions) {
@@ -116,7 +239,7 @@ std::string three_percent(const std::array<double, 3>& fractions) {
 }
 
 /// "max_iterations", or "max_iterations (4), collision (1)".
-std::string terminations(const RunsOfRow& runs) {
+std::string terminations(const Seeds& runs) {
   std::map<std::string, int> counts;
   for (const RunFigures* run : runs) ++counts[run->termination];
   std::string text;
@@ -129,56 +252,54 @@ std::string terminations(const RunsOfRow& runs) {
 }
 
 /// What the columns have no room for.
-std::string runs_note(const std::string& utility, const RunsOfRow& runs) {
-  const auto mean = [&](const auto& value_of) { return estimate(runs, value_of).mean; };
+std::string runs_note(const std::string& name, const Seeds& runs) {
+  const auto values = [&](const auto& value_of) {
+    std::vector<double> all;
+    for (const RunFigures* const run : runs) all.push_back(value_of(*run));
+    return all;
+  };
+  const auto mean = [&](const auto& value_of) { return mean_of(values(value_of)); };
   std::array<double, 3> raw{};
-  double least = 1.0;
-  double most = 0.0;
-  for (const RunFigures* run : runs) {
-    for (std::size_t size = 0; size < 3; ++size) {
-      raw[size] += run->coverage_final_raw[size] / static_cast<double>(runs.size());
-    }
-    least = std::min(least, run->coverage_final[0]);
-    most = std::max(most, run->coverage_final[0]);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    raw[i] = mean([&](const RunFigures& r) { return r.coverage_final_raw[i]; });
   }
-  const auto views =
-      static_cast<std::size_t>(std::lround(mean([](const RunFigures& r) { return r.iterations; })));
+  const double views = mean([](const RunFigures& r) { return r.iterations; });
   std::string note = fmt::format(
       "{}: ended by {} after {}; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
       "of wall time",
-      utility, terminations(runs), counted(views, "view", "views"),
+      name, terminations(runs),
+      counted(static_cast<std::size_t>(std::lround(views)), "view", "views"),
       mean([](const RunFigures& r) { return r.flown_m; }), three_percent(raw),
       mean([](const RunFigures& r) { return r.wall_s; }));
   if (runs.size() > 1) {
+    const auto finest = values([](const RunFigures& r) { return r.coverage_final[0]; });
     note += fmt::format(", each a mean of {}; at 0.05 m from {:.1f} to {:.1f} %", runs.size(),
-                        100.0 * least, 100.0 * most);
+                        100.0 * *std::min_element(finest.begin(), finest.end()),
+                        100.0 * *std::max_element(finest.begin(), finest.end()));
   }
   return note;
 }
 
-bool prints_time(const PaperTable& paper) {
-  return std::any_of(paper.rows.begin(), paper.rows.end(),
-                     [](const PaperRow& row) { return row.time_min.has_value(); });
-}
-
-void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
-               const std::optional<Ceiling>& ceiling) {
-  table.notes.emplace_back(
+void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Group>& groups,
+               bool prints_time, const std::optional<Ceiling>& ceiling) {
+  std::vector<std::string>& notes = table.notes;
+  notes.emplace_back(
       "coverage: of voxels of that size, ours of those with visible surface of a tenth of their "
       "face");
-  const auto is_cut = [](const Row& row) { return row[1].text == kCut; };
-  if (std::any_of(table.rows.begin(), table.rows.end(), is_cut)) {
-    table.notes.emplace_back(kCutNote);
+  if (std::any_of(table.rows.begin(), table.rows.end(),
+                  [](const Row& row) { return row[1].text == kCut; })) {
+    notes.emplace_back(kCutNote);
   }
-  table.notes.push_back(fmt::format(
+  notes.push_back(fmt::format(
       "ours: entropy reduction in nat; distance in straight lines between views, profile apart{}",
-      prints_time(paper) ? "; time from the first view on, as the distance" : ""));
-  if (several_runs) {
-    table.notes.emplace_back(
+      prints_time ? "; time from the first view on, as the distance" : ""));
+  if (std::any_of(groups.begin(), groups.end(),
+                  [](const Group& group) { return group.runs.size() > 1; })) {
+    notes.emplace_back(
         "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
   }
   if (ceiling && !ceiling->is_given) {
-    table.notes.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf "
         "filter can keep, of exact sensors: noise can lift a mission above it; of ceiling: "
         "coverage at 0.05 m over the latter's; all surface, also inner: {}, behind the leaf filter "
@@ -186,10 +307,25 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
         three_percent(ceiling->raw), three_percent(ceiling->leaf_raw)));
   }
   if (std::any_of(paper.rows.begin(), paper.rows.end(), is_doubtful)) {
-    table.notes.emplace_back(
+    notes.emplace_back(
         "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
         "own definition; the two columns may have changed places");
   }
+  for (const Group& group : groups) notes.push_back(runs_note(group.name, group.runs));
+}
+
+TableCell metres_cell(const Seeds& runs, double coverage) {
+  std::vector<double> metres;
+  double there = 0.0;
+  for (const RunFigures* const run : runs) {
+    if (run->curve.coverage.empty()) return {};  // nobody knows
+    const auto spent = effort_to_reach(run->curve, run->before, coverage);
+    metres.push_back(spent ? spent->metres : std::numeric_limits<double>::infinity());
+    there += spent ? 1.0 : 0.0;
+  }
+  const std::optional<double> median = median_effort(metres);
+  return {fmt::format("{} ({:.0f} of {})", median ? grouped(*median, 1) : "-", there, runs.size()),
+          {median, there}};
 }
 
 }  // namespace
@@ -197,38 +333,54 @@ void add_notes(TextTable& table, const PaperTable& paper, bool several_runs,
 TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
                            const std::optional<Ceiling>& ceiling,
                            std::span<const std::string> settings) {
-  TextTable table;
-  table.title = std::string(paper.source);
-  const std::set<double> more_m = more_sizes(runs);
-  table.columns = all_columns(more_m);
-  const auto add = [&](const RowFigures& f) { table.rows.push_back(all_cells(f, more_m)); };
-  const std::vector<TableGroup> groups = table_groups(runs, settings);
+  const bool prints_time =
+      std::any_of(paper.rows.begin(), paper.rows.end(),
+                  [](const PaperRow& row) { return row.time_min.has_value(); });
+  TextTable table{.title = std::string(paper.source),
+                  .columns = columns_of(runs, {prints_time ? "" : "time_min"})};
+  const double most = ceiling ? ceiling->leaf_outside[0] : 0.0;
+  const std::vector<Group> groups = groups_of(paper, runs, settings);
   for (const PaperRow& row : paper.rows) {
-    for (const TableGroup& group : groups) {
-      if (group.utility != row.utility) continue;
-      const std::string label = group.label(std::string(row.label));
-      add(our_figures(label, group.runs, ceiling));
-      if (const auto cut = our_figures_as_long(label, group.runs, row, ceiling)) add(*cut);
+    for (const Group& group : groups) {
+      if (group.utility == row.utility) add_ours(group.name, group.runs, &row, most, table);
     }
-    add(paper_figures(row));
+    add_papers_row(std::string(row.label), row, table);
   }
-  for (const TableGroup& group : groups) {
-    if (find_row(paper, group.utility) != nullptr) continue;
-    add(our_figures(group.label(name_in_table(paper, group.utility)), group.runs, ceiling));
+  for (const Group& group : groups) {
+    const bool is_papers = find_row(paper, group.utility) != nullptr;
+    if (!is_papers) add_ours(group.name, group.runs, nullptr, most, table);
   }
-  for (const RowFigures& profile : our_profiles(groups, ceiling, more_m)) add(profile);
-  if (paper.profile) add(paper_figures(*paper.profile));
+  add_profiles(groups, most, table);
+  if (paper.profile) add_papers_row("Profile", *paper.profile, table);
   if (ceiling && !ceiling->is_given) {
-    add(ceiling_figures("physical", ceiling->outside));
-    add(ceiling_figures("leaf filter", ceiling->leaf_outside));
+    add_row("Ceiling", "physical", {covered(ceiling->outside)}, table);
+    add_row("Ceiling", "leaf filter", {covered(ceiling->leaf_outside)}, table);
   }
-  if (!prints_time(paper)) drop_column(table, "time_min");
-  const bool several_runs = std::any_of(
-      groups.begin(), groups.end(), [](const TableGroup& group) { return group.runs.size() > 1; });
-  add_notes(table, paper, several_runs, ceiling);
-  for (const TableGroup& group : groups) {
-    table.notes.push_back(runs_note(group.label(name_in_table(paper, group.utility)), group.runs));
+  add_notes(table, paper, groups, prints_time, ceiling);
+  return table;
+}
+
+TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs,
+                       const std::optional<Ceiling>& ceiling,
+                       std::span<const std::string> settings) {
+  const auto shares = std::span(kReachShares).subspan(1);  // 80 % is what every method passes
+  TextTable table{.title = "Metres to reach the ceiling",
+                  .columns = {{"Utility", "utility"}, {"Row", "row"}}};
+  for (const double share : shares) {
+    table.columns.push_back({fmt::format("{:.0f}%", 100.0 * share),
+                             fmt::format("metres_to_{:.0f}", 100.0 * share), ColumnKind::counted});
   }
+  if (runs.empty() || !ceiling || ceiling->leaf_outside[0] <= 0.0) return table;
+  for (const Group& group : groups_of(paper, runs, settings)) {
+    Row& row = table.rows.emplace_back(Row{{group.name}, {"ours"}});
+    for (const double share : shares) {
+      row.push_back(metres_cell(group.runs, share * ceiling->leaf_outside[0]));
+    }
+  }
+  table.notes = {
+      "metres to 90 to 99% of the ceiling: median over the runs of the distance, profile apart, "
+      "until the cloud first covered so much at 0.05 m of what it can hold, and how many runs got "
+      "there; one that did not counts as farther than all others"};
   return table;
 }
 
@@ -236,25 +388,15 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std:
   const PaperTable* const paper = find_paper_table(run.scenario);
   const PaperRow* row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   if (row != nullptr && !is_papers_structure(*paper, run.structure)) row = nullptr;
-  TextTable table;
-  const std::set<double> more_m = more_sizes({&run, 1});
-  table.columns = all_columns(more_m);
-  table.rows.push_back(all_cells(our_figures(run.utility, {&run}, {}), more_m));
-  if (row != nullptr && !has_papers_setting) {
-    table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
-  } else if (row != nullptr) {
-    if (const auto cut = our_figures_as_long(run.utility, {&run}, *row, {})) {
-      table.rows.push_back(all_cells(*cut, more_m));
-      table.notes.emplace_back(kCutNote);
-    }
-    RowFigures printed_row = paper_figures(*row);
-    printed_row.label = run.utility;
-    table.rows.push_back(all_cells(printed_row, more_m));
-    if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
-  }
   // no ceiling here: finding it may take longer than the mission
-  for (const std::string_view key : {"runs", "time_min", "share_of_ceiling"}) {
-    drop_column(table, key);
+  TextTable table{.columns = columns_of({&run, 1}, {"runs", "time_min", "share_of_ceiling"})};
+  add_ours(run.utility, {&run}, has_papers_setting ? row : nullptr, 0.0, table);
+  if (table.rows.size() > 1) table.notes.emplace_back(kCutNote);
+  if (row != nullptr && has_papers_setting) {
+    add_papers_row(run.utility, *row, table);
+    if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
+  } else if (row != nullptr) {
+    table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
   }
   table.notes.push_back(runs_note(run.utility, {&run}));
   return terminal_text(table, width);

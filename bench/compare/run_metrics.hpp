@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/score/run_figures.hpp"
@@ -16,31 +17,28 @@ namespace gnbv {
 /// What a figure is relative to: the ceiling is that of the run's scenario and method, the budgets
 /// are the same for all runs of a scenario.
 struct MetricContext {
-  std::optional<Ceiling> ceiling;
-  std::array<double, 3> budgets{};  // of views, metres, seconds: the longest run's; 0 for none
+  std::optional<Ceiling> ceiling = {};
+  std::array<double, 3> budgets = {};  // of views, metres, seconds: the longest run's; 0 for none
+
+  /// Coverage at 0.05 m; 0 where it is not known.
+  double most() const { return ceiling ? ceiling->leaf_outside[0] : 0.0; }
 };
 
 struct RunMetric {
   std::string name;  // with the unit of the value
   bool higher_is_better = true;
   int decimals = 1;
+  /// Infinite for an effort to reach what a run did not get to; nothing where it is not known.
   std::function<std::optional<double>(const RunFigures& run, const MetricContext& context)> value;
-  bool may_be_missed = false;  // an effort to reach: infinite for a run that did not get there
 };
-
-/// In the order of tables. Coverage at 0.05 m is the first of them, the efforts to reach
-/// kReachShares of the ceiling the last.
-std::span<const RunMetric> run_metrics();
-
-/// These, and then the coverage at each size that any of the runs has beside the paper's,
-/// ascending.
-std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs);
-
-/// The index of a metric in run_metrics(). Requires a name of them.
-std::size_t metric_index(std::string_view name);
 
 constexpr std::string_view kCoverageMetric = "coverage at 0.05 m (%)";
 constexpr std::string_view kDistanceMetric = "distance (m)";
+
+/// In the order of tables: coverage at 0.05 m first, then the others that every run has, the
+/// efforts to reach kReachShares of the ceiling, and the coverage at each size that any of the runs
+/// has beside the paper's, ascending.
+std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs);
 
 /// The budgets common to all runs: the longest of them by each effort. 0 where a run has no curve,
 /// since nothing can be compared then.

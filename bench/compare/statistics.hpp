@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,18 +11,12 @@ namespace gnbv {
 /// Requires a value.
 double mean_of(std::span<const double> values);
 
-/// With n - 1 in the denominator. Requires two values.
-double sample_deviation(std::span<const double> values);
-
-/// The t below which Student's t of so many degrees of freedom stays with probability `p`. Requires
-/// p in (0, 1).
-double student_t_quantile(double p, double degrees_of_freedom);
-
 /// A mean and how far the true one may be from it.
 struct MeanEstimate {
   std::size_t n = 0;
   double mean = 0.0;
-  std::optional<double> half_width;  // of the 95 % interval (Student 1908); none with one value
+  std::optional<double> half_width =
+      {};  // of the 95 % interval (Student 1908); none with one value
 };
 
 /// Requires a value.
@@ -32,11 +25,9 @@ MeanEstimate estimate_mean(std::span<const double> values);
 /// Wilcoxon's signed-rank test (Wilcoxon 1945) that differences are symmetric about 0. They may be
 /// infinite: the largest of all, of equal size.
 struct SignedRankTest {
-  std::size_t n = 0;     // differences that are not 0; the others are dropped
-  double w_plus = 0.0;   // sum of the ranks of positive differences; equal sizes share their ranks
-  double p = 1.0;        // two-sided
-  bool is_exact = true;  // over all 2^n signs (n <= 25), else normal, corrected for continuity and
-                         // ties (Hollander, Wolfe 1999, section 3.1)
+  std::size_t n = 0;    // differences that are not 0; the others are dropped
+  double w_plus = 0.0;  // sum of the ranks of positive differences; equal sizes share their ranks
+  double p = 1.0;       // two-sided, exact: over all 2^n signs
 };
 
 SignedRankTest wilcoxon_signed_rank(std::span<const double> differences);

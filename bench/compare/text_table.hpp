@@ -1,5 +1,5 @@
-// Tables without form, and the forms they are printed in: terminal, Markdown, CSV, LaTeX, JSON.
-// Every form carries the same rows and notes; people read rounded text, machines the plain numbers.
+// Tables as data, and the forms they are printed in: terminal, Markdown, CSV, LaTeX, JSON. Every
+// form carries the same rows and notes; people read rounded text, machines the plain numbers.
 #pragma once
 
 #include <array>
@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "bench/compare/statistics.hpp"
 
 namespace gnbv {
 
@@ -19,26 +21,40 @@ struct TableColumn {
   std::string head;  // for people
   std::string key;   // for machines, in the unit of the plain numbers
   ColumnKind kind = ColumnKind::text;
+  int decimals = 0;       // of estimates, for people
+  bool is_share = false;  // people read it in percent
+
+  bool is_right() const { return kind != ColumnKind::text; }
 };
 
 /// A cell as people read it and, unless the column is of text, its plain numbers.
 struct TableCell {
-  std::string text;
-  std::array<std::optional<double>, 2> values{};
+  std::string text = "-";
+  std::array<std::optional<double>, 2> values = {};
 
   bool operator==(const TableCell&) const = default;
 };
 
+/// "92.8 ±0.6"; a dash where there is no mean.
+TableCell estimate_cell(const std::optional<MeanEstimate>& estimate, int decimals,
+                        bool is_share = false);
+
 struct TextTable {
-  std::string title;
-  std::vector<TableColumn> columns;  // the first is of text
-  std::vector<std::vector<TableCell>> rows;
-  std::vector<std::string> notes;
+  std::string title = {};
+  std::vector<TableColumn> columns = {};  // the first is of text
+  std::vector<std::vector<TableCell>> rows = {};
+  std::vector<std::string> notes = {};
 };
 
 /// The table with the last columns of `more`, those after its first `shared`: a row gets the cells
 /// of the row that agrees with it in the texts of the shared columns, or dashes. Notes of both.
 TextTable with_columns_of(TextTable table, const TextTable& more, std::size_t shared);
+
+/// Title, aligned columns where there are rows, and notes, for a terminal of that width (0: as wide
+/// as it takes). What is wider is made narrow, by no more than it takes: heads are folded at
+/// blanks; all names but the last become lines above their rows; words on the right are folded;
+/// columns go into blocks below each other. No cell is ever cut.
+std::string terminal_text(const TextTable& table, std::size_t width = 0);
 
 /// A table of GitHub's Markdown, its title in bold above and its notes as a list below.
 std::string markdown_text(const TextTable& table);
@@ -62,7 +78,7 @@ std::string json_text(const TextTable& table);
 constexpr std::array<std::string_view, 5> kTableFormats = {"terminal", "markdown", "csv", "latex",
                                                            "json"};
 
-/// Requires a name of kTableFormats.
-std::string formatted_text(const TextTable& table, std::string_view format);
+/// In a form of kTableFormats; that of a terminal as wide as `width`.
+std::string formatted_text(const TextTable& table, std::string_view format, std::size_t width = 0);
 
 }  // namespace gnbv

@@ -31,11 +31,7 @@ double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_
   for (std::size_t i = 1; i < entries && left < budget; ++i) {
     const double right = effort_at(curve, effort, i);
     GNBV_CHECK(right >= left, "effort goes back from {} to {} at view {}", left, right, i);
-    const double from = curve.coverage[i - 1][size];
-    const double to = curve.coverage[i][size];
-    // the budget may end within a step
-    const double share = right > budget ? (budget - left) / (right - left) : 1.0;
-    area += share * (right - left) * (from + 0.5 * share * (to - from));
+    area += (std::min(right, budget) - left) * curve.coverage[i - 1][size];
     left = right;
   }
   if (left < budget) area += (budget - left) * curve.coverage.back()[size];

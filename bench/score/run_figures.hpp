@@ -37,8 +37,9 @@ enum class Effort { views, metres, seconds };
 /// Of the curve's entry.
 double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry);
 
-/// Mean coverage (size index `size`) over [0, budget] of the effort, by the trapezoidal rule;
-/// after the last view coverage stays what it is. In [0, 1]. Requires budget > 0 and a curve.
+/// Mean coverage (size index `size`) over [0, budget] of the effort. Surface counts from the view
+/// that saw it; after the last view coverage stays what it is. In [0, 1]. Requires budget > 0 and a
+/// curve.
 double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_t size,
                            double budget);
 

@@ -202,7 +202,7 @@ def test_smoke_keeps_its_baseline(run, flown, request):
     baseline = f'{request.config.rootpath}/bench/baselines/smoke.json'
     run(f'check {flown} --against {baseline}')
     run('run smoke --quiet --set planner.termination.max_iterations=6 --out worse')
-    run(f'check worse --against {baseline}', 'regressed coverage_0.05', 'better    flight_time_s',
+    run(f'check worse --against {baseline}', 'regressed  coverage_0.05', 'better     flight_time_s',
         code=1)
 
 

@@ -12,25 +12,17 @@
 namespace gnbv {
 namespace {
 
-double size_of(double low, double high) { return std::max({std::abs(low), std::abs(high), 1.0}); }
-
-int decimals_of(double step) {
-  int decimals = 0;
-  for (; decimals < 7 && std::abs(step - std::round(step)) > 1e-6 * step; step *= 10.0) ++decimals;
-  return decimals;
-}
-
+/// As many decimals as the step has. Millions are shortened: longer numbers would leave no room.
 std::string tick_text(double value, double step, double largest) {
   constexpr int kMostDecimals = 6;
-  const int decimals = decimals_of(step);
-  std::string text;
-  if (decimals > kMostDecimals) {
-    text = fmt::format("{:g}", value);
-  } else if (value != 0.0 && largest >= 1e6 && std::fmod(step, 1000.0) == 0.0) {
-    text = fmt::format("{:g}M", value / 1e6);  // longer numbers would leave no room
-  } else {
-    text = grouped(value, decimals);
+  int decimals = 0;
+  for (double rest = step; decimals <= kMostDecimals; rest *= 10.0, ++decimals) {
+    if (std::abs(rest - std::round(rest)) <= 1e-6 * rest) break;
   }
+  const bool is_millions = value != 0.0 && largest >= 1e6 && std::fmod(step, 1000.0) == 0.0;
+  std::string text = decimals > kMostDecimals ? fmt::format("{:g}", value)
+                     : is_millions            ? fmt::format("{:g}M", value / 1e6)
+                                              : grouped(value, decimals);
   if (text.starts_with('-')) text.replace(0, 1, "\u2212");
   return text;
 }
@@ -57,11 +49,10 @@ Axis axis_from(std::string_view label, double low, double high, int most_steps) 
 }
 
 Axis axis_around(std::string_view label, double low, double high, int most_steps) {
-  // values that are all the same lie in the middle of an axis around them
-  if (high - low < 1e-9 * size_of(low, high)) {
-    const double room = 0.05 * size_of(low, high);
-    low -= room;
-    high += room;
+  const double size = std::max({std::abs(low), std::abs(high), 1.0});
+  if (high - low < 1e-9 * size) {  // values that are all the same lie in the middle
+    low -= 0.05 * size;
+    high += 0.05 * size;
   }
   const double step = even_step(high - low, most_steps);
   Axis axis{.label = std::string(label),

@@ -50,34 +50,34 @@ MeanCurve mean_curve(std::span<const StepCurve> curves) {
   mean.x.erase(std::unique(mean.x.begin(), mean.x.end()), mean.x.end());
   mean.shortest_x = *std::min_element(ends.begin(), ends.end());
   mean.longest_x = mean.x.back();
+  mean.end_x = mean_of(ends);
   if (mean.x.size() > kMost) {
     const double first = mean.x.front();
     mean.x.resize(kMost);
     for (std::size_t i = 0; i < kMost; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(kMost - 1);
-      mean.x[i] = first + share * (mean.longest_x - first);
+      mean.x[i] = std::lerp(first, mean.longest_x, share);
     }
-    mean.x.back() = mean.longest_x;
   }
-  const auto values_at = [&](double x) {
+  const auto estimate_at = [&](double x) {
     std::vector<double> values;
     for (const StepCurve& curve : curves) values.push_back(curve.at(x));
-    return values;
+    return estimate_mean(values);
   };
-  for (const double x : mean.x) mean.y.push_back(estimate_mean(values_at(x)));
-  mean.end_x = mean_of(ends);
-  mean.end_y = mean_of(values_at(mean.end_x));
+  for (const double x : mean.x) mean.y.push_back(estimate_at(x));
+  mean.end_y = estimate_at(mean.end_x).mean;
   return mean;
 }
 
 std::vector<Phase> frontier_phases(std::span<const ViewRecord> views) {
   std::vector<Phase> phases;
-  bool is_open = false;
-  for (const ViewRecord& view : views) {
-    const bool is_frontier = traits_of(view.decision.sampler).at_frontier;
-    if (is_frontier && !is_open) phases.push_back({view.iteration, view.iteration});
-    if (is_frontier) phases.back().last = view.iteration;
-    is_open = is_frontier;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto is_frontier = [&](std::size_t k) {
+      return traits_of(views[k].decision.sampler).at_frontier;
+    };
+    if (!is_frontier(i)) continue;
+    if (i == 0 || !is_frontier(i - 1)) phases.push_back({.first = views[i].iteration});
+    phases.back().last = views[i].iteration;
   }
   return phases;
 }

@@ -1,4 +1,3 @@
-#include "tools/figures/flight_figures.hpp"
 
 #include <fmt/format.h>
 
@@ -15,44 +14,32 @@ namespace {
 
 constexpr double kLeastError_m = 1e-5;  // what is less lies on the axis's end
 
-/// Roll, pitch (nose down positive, as the body frame FLU turns) and yaw in degrees.
-std::array<double, 3> attitude_deg(const Isometry& T_world_body) {
-  const Eigen::Matrix3d R = T_world_body.linear();
-  return {rad_to_deg(std::atan2(R(2, 1), R(2, 2))),
-          rad_to_deg(std::asin(std::clamp(-R(2, 0), -1.0, 1.0))),
-          rad_to_deg(std::atan2(R(1, 0), R(0, 0)))};
-}
-
-double tilt_deg(const Isometry& T_world_body) {
-  return rad_to_deg(std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0)));
-}
-
 /// Distance to the nearest point of the way from the view before to that view.
 double distance_to_leg_m(const Vec3& p_world_m, std::span<const ViewRecord> views,
                          std::size_t view) {
-  const Decision& decision = views[view].decision;
   Vec3 from_m = views[view - 1].decision.view.p_world_m;
   double least_m = (p_world_m - from_m).norm();
-  const auto take = [&](const Vec3& to_m) {
+  std::vector<Vec3> stops_m = views[view].decision.via_world_m;
+  stops_m.push_back(views[view].decision.view.p_world_m);
+  for (const Vec3& to_m : stops_m) {
     least_m = std::min(least_m, distance_to_segment_m(p_world_m, from_m, to_m));
     from_m = to_m;
-  };
-  for (const Vec3& via_m : decision.via_world_m) take(via_m);
-  take(decision.view.p_world_m);
+  }
   return least_m;
 }
 
-/// The samples between the first view and the last.
+/// The samples between the first view and the last. Pitch is positive nose down, as the body frame
+/// FLU turns.
 struct Flown {
-  std::vector<double> times_s, errors_m, tilts_deg, speeds_m_s;
-  std::array<std::vector<double>, 3> positions_m, attitudes_deg;
+  using Values = std::vector<double>;
+  Values times_s, errors_m, tilts_deg, speeds_m_s, rolls_deg, pitches_deg, yaws_deg;
+  std::array<Values, 3> positions_m;
 };
 
 Flown flown_between_views(const RunRecord& record) {
   Flown flown;
-  if (record.views.size() < 2) return flown;
   std::size_t view = 1;
-  for (std::size_t i = 0; i < record.path.size(); ++i) {
+  for (std::size_t i = 0; i < record.path.size() && record.views.size() > 1; ++i) {
     const TrajectorySample& sample = record.path[i];
     if (sample.time_s < record.views.front().time_s) continue;
     while (view < record.views.size() && record.views[view].time_s < sample.time_s) ++view;
@@ -63,12 +50,15 @@ Flown flown_between_views(const RunRecord& record) {
     const double step_m = (p_m - before.T_world_body.translation()).norm();
     flown.times_s.push_back(sample.time_s);
     flown.errors_m.push_back(distance_to_leg_m(p_m, record.views, view));
-    flown.tilts_deg.push_back(tilt_deg(sample.T_world_body));
     flown.speeds_m_s.push_back(step_s > 0.0 ? step_m / step_s : 0.0);
-    const std::array<double, 3> attitude = attitude_deg(sample.T_world_body);
+    const Eigen::Matrix3d R = sample.T_world_body.linear();
+    const auto clamped = [](double x) { return std::clamp(x, -1.0, 1.0); };
+    flown.tilts_deg.push_back(rad_to_deg(std::acos(clamped(R(2, 2)))));
+    flown.rolls_deg.push_back(rad_to_deg(std::atan2(R(2, 1), R(2, 2))));
+    flown.pitches_deg.push_back(rad_to_deg(std::asin(clamped(-R(2, 0)))));
+    flown.yaws_deg.push_back(rad_to_deg(std::atan2(R(1, 0), R(0, 0))));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       flown.positions_m.at(axis).push_back(p_m[static_cast<Eigen::Index>(axis)]);
-      flown.attitudes_deg.at(axis).push_back(attitude.at(axis));
     }
   }
   return flown;
@@ -100,16 +90,8 @@ FigurePanel low_panel(std::string heading, std::vector<Series> series,
           .height_px = 180};
 }
 
-/// What line and band are, where samples are drawn as those of steps.
-void note_steps(std::span<const double> times_s, std::string_view band, Figure& figure) {
-  const std::size_t steps = steps_of(times_s).size();
-  if (steps == 0) return;
-  const double step_s = (times_s.back() - times_s.front()) / static_cast<double>(steps - 1);
-  figure.notes.push_back(fmt::format("line: mean of each {:.2g} s; band: {}", step_s, band));
-}
-
-}  // namespace
-
+/// Where each of 240 even steps of time begins among many samples, and their end; nothing of few,
+/// which are drawn as they are.
 std::vector<std::size_t> steps_of(std::span<const double> times_s) {
   constexpr double kSteps = 240.0;  // some 4 pixels of a column of a paper each
   const double step_s = (times_s.back() - times_s.front()) / kSteps;
@@ -124,6 +106,16 @@ std::vector<std::size_t> steps_of(std::span<const double> times_s) {
   begins.push_back(times_s.size());
   return begins;
 }
+
+/// What line and band are, where samples are drawn as those of steps.
+void note_steps(std::span<const double> times_s, std::string_view band, Figure& figure) {
+  const std::size_t steps = steps_of(times_s).size();
+  if (steps == 0) return;
+  const double step_s = (times_s.back() - times_s.front()) / static_cast<double>(steps - 1);
+  figure.notes.push_back(fmt::format("line: mean of each {:.2g} s; band: {}", step_s, band));
+}
+
+}  // namespace
 
 Series trace(std::string name, const std::vector<double>& times_s,
              const std::vector<double>& values, std::size_t colour, double from, double to) {
@@ -187,10 +179,10 @@ std::optional<Figure> flight_figure(const RunRecord& record) {
     positions.back().label = name;
   }
   add("position (m)", std::move(positions));
-  add("yaw (deg), each sample", {yaw_series(flown.times_s, flown.attitudes_deg[2])});
+  add("yaw (deg), each sample", {yaw_series(flown.times_s, flown.yaws_deg)});
   figure.panels.back().y = {.low = -200.0, .high = 200.0, .ticks = ticks_of(-180.0, 180.0, 180.0)};
-  add("roll (deg)", {trace("roll", flown.times_s, flown.attitudes_deg[0], 0)});
-  add("pitch (deg)", {trace("pitch", flown.times_s, flown.attitudes_deg[1], 0)});
+  add("roll (deg)", {trace("roll", flown.times_s, flown.rolls_deg, 0)});
+  add("pitch (deg)", {trace("pitch", flown.times_s, flown.pitches_deg, 0)});
   add("speed (m/s)", {trace("speed", flown.times_s, flown.speeds_m_s, 0)});
   add("distance from planned leg (m)", {trace("distance", flown.times_s, flown.errors_m, 0)});
   return figure;

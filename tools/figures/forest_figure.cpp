@@ -1,10 +1,10 @@
-#include "tools/figures/forest_figure.hpp"
-
+// forest_figure() of group_figures.hpp: paired differences of methods with their intervals.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "tools/figures/group_figures.hpp"
 #include "tools/run/words.hpp"
 
 namespace gnbv {
@@ -12,17 +12,6 @@ namespace {
 
 constexpr int kMethod_px = 34;
 constexpr int kBetweenMetrics_px = 28;
-
-bool is_share(const std::string& metric) { return metric.ends_with("(%)"); }
-
-/// Differences have the unit of the axis.
-std::string without_unit(const std::string& metric) { return metric.substr(0, metric.rfind(" (")); }
-
-/// The rows of one method in a panel: those that are significant, and the others.
-struct MethodRows {
-  Series significant{.name = "", .mark = Mark::interval};
-  Series open{.name = "", .mark = Mark::interval, .is_filled = false};
-};
 
 /// Both ends of the axis, with 0 between: half beyond the largest mean on either side unless all
 /// intervals end before, so that few seeds do not press everything else together.
@@ -42,84 +31,86 @@ Axis difference_axis(std::string_view label, std::span<const Series> rows) {
   return axis_from(label, low - room, high + room, 6);
 }
 
-/// Metrics whose differences have one unit, on alternating bands from 0 downwards.
-class ForestPanel {
- public:
-  ForestPanel(const Comparison& comparison, std::size_t scenario, bool of_shares)
-      : comparison_(comparison), rows_(comparison.methods.size()), of_shares_(of_shares) {
-    for (const MethodFigure& figure : comparison.figures) {
-      const std::string& metric = comparison.metrics[figure.metric].name;
-      if (figure.scenario == scenario && figure.contrast && is_share(metric) == of_shares) {
-        add(figure, metric);
-      }
-    }
-  }
+/// A row of a panel: an interval in the unit of the axis.
+struct ForestRow {
+  std::size_t band = 0;  // of its metric, from above
+  const MethodFigure* figure = nullptr;
+  double scale = 1.0;
+};
 
-  bool is_empty() const { return metrics_.empty(); }
-
-  /// Requires that it is not empty. The methods are named in the first panel's legend.
-  FigurePanel panel(bool is_first) {
-    const std::vector<SeriesLook> looks = method_looks(comparison_.methods);
-    FigurePanel panel{
-        .height_px =
-            static_cast<int>(metrics_.size()) *
-            (kBetweenMetrics_px + kMethod_px * (static_cast<int>(comparison_.methods.size()) - 1)),
-        .has_categories = true};
-    for (std::size_t method = 0; method < rows_.size(); ++method) {
-      const std::string name = human_name(comparison_.methods[method]);
-      for (Series* const series : {&rows_[method].significant, &rows_[method].open}) {
-        if (series->x.empty()) continue;
-        series->name = name + (series->is_filled ? ", significant" : "");
-        series->look = looks[method];
-        panel.series.push_back(std::move(*series));
-      }
-      if (!is_first || method == comparison_.baseline) continue;
-      panel.series.push_back({.name = name,
-                              .label = name,
-                              .mark = Mark::points,
-                              .look = looks[method],
-                              .width_pt = 0.0});
-    }
-    panel.x = difference_axis(
-        fmt::format("difference to {} ({})", human_name(comparison_.methods[comparison_.baseline]),
-                    of_shares_ ? "percentage points" : "% of its mean"),
-        panel.series);
-    panel.y.low = -static_cast<double>(metrics_.size());
-    panel.y.high = 0.0;
-    for (std::size_t i = 0; i < metrics_.size(); ++i) {
-      panel.y.ticks.push_back({-0.5 - static_cast<double>(i), without_unit(metrics_[i])});
-    }
-    panel.series.push_back({.name = "no difference",
-                            .look = {.colour = std::string(kPlotGrey)},
-                            .x = {0.0, 0.0},
-                            .y = {panel.y.low, panel.y.high}});
-    return panel;
-  }
-
- private:
-  void add(const MethodFigure& figure, const std::string& metric) {
-    const MeanEstimate& difference = figure.contrast->difference;
-    const double base = std::abs(figure.contrast->baseline_mean);
-    if (!difference.half_width || !(of_shares_ || base > 0.0)) return;
-    if (metrics_.empty() || metrics_.back() != metric) metrics_.push_back(metric);
-    const double scale = of_shares_ ? 1.0 : 100.0 / base;
-    const std::size_t place = figure.method - (figure.method > comparison_.baseline ? 1 : 0);
-    const auto places = static_cast<double>(comparison_.methods.size() - 1);
-    MethodRows& rows = rows_[figure.method];
-    Series& series =
-        figure.contrast->verdict == Verdict::significant ? rows.significant : rows.open;
+/// The rows of one method, those that are significant or the others; each band of a metric is one
+/// high, from 0 downwards, and has a place for each method but the baseline.
+Series series_of(const Comparison& comparison, std::span<const ForestRow> rows, std::size_t method,
+                 bool is_significant) {
+  const std::string name = human_name(comparison.methods[method]);
+  Series series{.name = name + (is_significant ? ", significant" : ""),
+                .mark = Mark::interval,
+                .is_filled = is_significant};
+  const std::size_t place = method - (method > comparison.baseline ? 1 : 0);
+  const auto places = static_cast<double>(comparison.methods.size() - 1);
+  for (const auto& [band, figure, scale] : rows) {
+    const bool is_its = (figure->contrast->verdict == Verdict::significant) == is_significant;
+    if (figure->method != method || !is_its) continue;
+    const MeanEstimate& difference = figure->contrast->difference;
     series.x.push_back(scale * difference.mean);
-    series.y.push_back(1.0 - static_cast<double>(metrics_.size()) -
+    series.y.push_back(-static_cast<double>(band) -
                        (0.1 + 0.8 * (static_cast<double>(place) + 0.5) / places));
     series.low.push_back(scale * (difference.mean - *difference.half_width));
     series.high.push_back(scale * (difference.mean + *difference.half_width));
   }
+  return series;
+}
 
-  const Comparison& comparison_;
-  std::vector<std::string> metrics_ = {};
-  std::vector<MethodRows> rows_;  // of each method
-  bool of_shares_;
-};
+/// Metrics whose differences have one unit. The methods are named in the first panel's legend.
+/// Nothing where no difference has an interval.
+std::optional<FigurePanel> panel_of(const Comparison& comparison, std::size_t scenario,
+                                    bool of_shares, bool is_first) {
+  std::vector<std::string> metrics;
+  std::vector<ForestRow> rows;
+  for (const MethodFigure& figure : comparison.figures) {
+    const std::string& metric = comparison.metrics[figure.metric].name;
+    if (figure.scenario != scenario || !figure.contrast) continue;
+    if (metric.ends_with("(%)") != of_shares || !figure.contrast->difference.half_width) continue;
+    const double base = std::abs(figure.contrast->baseline_mean);
+    if (!of_shares && base == 0.0) continue;
+    const std::string name = metric.substr(0, metric.rfind(" ("));  // the unit is the axis's
+    if (metrics.empty() || metrics.back() != name) metrics.push_back(name);
+    rows.push_back({metrics.size() - 1, &figure, of_shares ? 1.0 : 100.0 / base});
+  }
+  if (rows.empty()) return std::nullopt;
+  const auto bands = static_cast<int>(metrics.size());
+  const auto methods = static_cast<int>(comparison.methods.size());
+  FigurePanel panel{.height_px = bands * (kBetweenMetrics_px + kMethod_px * (methods - 1)),
+                    .has_categories = true};
+  const std::vector<SeriesLook> looks = method_looks(comparison.methods);
+  for (std::size_t method = 0; method < comparison.methods.size(); ++method) {
+    for (const bool is_significant : {true, false}) {
+      Series series = series_of(comparison, rows, method, is_significant);
+      series.look = looks[method];
+      if (!series.x.empty()) panel.series.push_back(std::move(series));
+    }
+    if (!is_first || method == comparison.baseline) continue;
+    const std::string name = human_name(comparison.methods[method]);
+    panel.series.push_back({.name = name,
+                            .label = name,
+                            .mark = Mark::points,
+                            .look = looks[method],
+                            .width_pt = 0.0});
+  }
+  panel.x = difference_axis(
+      fmt::format("difference to {} ({})", human_name(comparison.methods[comparison.baseline]),
+                  of_shares ? "percentage points" : "% of its mean"),
+      panel.series);
+  panel.y = {.low = -static_cast<double>(bands), .high = 0.0};
+  for (const std::string& metric : metrics) {
+    panel.y.ticks.push_back({-0.5 - static_cast<double>(panel.y.ticks.size()), metric});
+  }
+  panel.series.push_back({.name = "no difference",
+                          .look = {.colour = std::string(kPlotGrey)},
+                          .x = {0.0, 0.0},
+                          .y = {panel.y.low, panel.y.high}});
+  return panel;
+}
 
 }  // namespace
 
@@ -129,8 +120,8 @@ std::optional<Figure> forest_figure(const Comparison& comparison, std::size_t sc
                 .title = human_name(comparison.scenarios[scenario]),
                 .notes = {"95 % intervals; filled: significant after Holm; an arrow: goes on"}};
   for (const bool of_shares : {true, false}) {
-    ForestPanel panel(comparison, scenario, of_shares);
-    if (!panel.is_empty()) figure.panels.push_back(panel.panel(figure.panels.empty()));
+    auto panel = panel_of(comparison, scenario, of_shares, figure.panels.empty());
+    if (panel) figure.panels.push_back(std::move(*panel));
   }
   if (figure.panels.empty()) return std::nullopt;
   return figure;

@@ -1,5 +1,5 @@
-// Figures that set groups of runs beside each other: coverage over effort, how many runs got how
-// far, density over the views.
+// Figures that set groups of runs, or methods, beside each other: coverage over effort, how many
+// runs got how far, density over the views, paired differences.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,40 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/figures/drawn_groups.hpp"
+#include "bench/compare/comparison.hpp"
+#include "tools/figures/curves.hpp"
 #include "tools/figures/figure.hpp"
+#include "tools/figures/groups.hpp"
 
 namespace gnbv {
+
+constexpr int kTallPanel_px = 790;      // one that stands alone
+constexpr double kGroupWidth_pt = 1.0;  // of a group's line
+
+/// A group as it is drawn: one curve a run, and their mean.
+struct DrawnGroup {
+  std::string label;
+  SeriesLook look;
+  std::vector<StepCurve> curves;
+  MeanCurve mean;
+
+  /// Requires a curve.
+  DrawnGroup(std::string name, SeriesLook its_look, std::vector<StepCurve> its_curves);
+
+  /// An interval of the mean of fewer than three runs says nothing: their own curves do.
+  bool has_band() const { return curves.size() >= 3; }
+};
+
+/// Puts the groups into the panel, those of two seeds thinly behind their means, and what has to be
+/// said of them into the notes. In the legend "Proposed (2 seeds)"; where a band is drawn,
+/// "Proposed (5 seeds), 95 % interval".
+void add_groups(std::span<const DrawnGroup> groups, Mark mark, FigurePanel& panel,
+                std::vector<std::string>& notes);
+
+/// What coverage is compared with, in percent: the ceilings, which are known at 0.05 m alone, and
+/// the final coverage of each of the paper's rows that has a group's scenario, structure and
+/// utility. Nothing at a size of which nothing is known.
+std::vector<Series> coverage_levels(std::span<const RunGroup> groups, double size_m);
 
 /// "coverage-views", "coverage-metres" or "coverage-seconds": steps for each group, with the 95 %
 /// interval of the mean where it has three runs or more; of two both are drawn, thinly. A mark
@@ -43,5 +73,12 @@ Figure mean_density_figure(std::span<const DrawnGroup> groups, std::string_view 
 
 /// The densities of groups of runs. Nothing where none took a view.
 std::optional<Figure> density_figure(std::span<const RunGroup> groups);
+
+/// "forest-SCENARIO", as reviews of trials draw them: for each metric and method that is not the
+/// baseline, the mean paired difference to the baseline with its 95 % interval, filled where the
+/// signed-rank test rejects after Holm: of shares in percentage points, of all else in percent of
+/// the baseline's mean. An interval that would press the others together goes on beyond the axis.
+/// Nothing where no difference has an interval.
+std::optional<Figure> forest_figure(const Comparison& comparison, std::size_t scenario);
 
 }  // namespace gnbv

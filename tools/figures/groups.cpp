@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <iterator>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/sha256.hpp"
-#include "tools/figures/names.hpp"
 
 namespace gnbv {
 namespace {
@@ -170,39 +168,49 @@ std::vector<std::string> labels_of(const Configurations& all) {
 }
 
 /// Without "." and the slash at the end.
-fs::path plain(const fs::path& folder) {
+std::string plain(const fs::path& folder) {
   const fs::path normal = folder.lexically_normal();
-  return normal.has_filename() ? normal : normal.parent_path();
+  return (normal.has_filename() ? normal : normal.parent_path()).string();
 }
 
 /// The shortest ending of `folder` that none of the others has: "plain" of "/tmp/plain" beside
 /// "/tmp/kept".
-std::string own_ending(const fs::path& folder, std::span<const fs::path> others) {
-  const fs::path own = plain(folder);
-  fs::path ending;
-  for (auto part = own.end(); part != own.begin();) {
-    --part;
-    ending = ending.empty() ? *part : *part / ending;
-    const auto has_it = [&](const fs::path& other) {
-      const fs::path theirs = plain(other);
-      const auto size = std::distance(ending.begin(), ending.end());
-      return std::distance(theirs.begin(), theirs.end()) >= size &&
-             std::equal(ending.begin(), ending.end(), std::prev(theirs.end(), size));
+std::string own_ending(const std::string& folder, std::span<const std::string> others) {
+  for (std::size_t at = folder.rfind('/'); at != std::string::npos && at > 0;
+       at = folder.rfind('/', at - 1)) {
+    const std::string ending = folder.substr(at + 1);
+    const auto has_it = [&](const std::string& other) {
+      return other == ending || other.ends_with("/" + ending);
     };
-    if (std::none_of(others.begin(), others.end(), has_it)) return ending.string();
+    if (std::none_of(others.begin(), others.end(), has_it)) return ending;
   }
-  return own.string();
+  return folder;
 }
 
-/// Calls it with the runs of each label that several have, and its words are put behind theirs.
-void add_where_shared(
-    std::vector<std::string>& labels,
-    const std::function<std::vector<std::string>(const std::vector<std::size_t>&)>& words_of) {
+/// Puts words behind the labels that several runs have; `words_of` says which, of the runs of one
+/// label.
+template <typename WordsOf>
+void tell_apart(std::vector<std::string>& labels, const WordsOf& words_of) {
   for (const auto& [label, numbers] : classes_of(labels)) {
     if (numbers.size() < 2) continue;
     const std::vector<std::string> words = words_of(numbers);
     for (std::size_t k = 0; k < numbers.size(); ++k) labels[numbers[k]] += words[k];
   }
+}
+
+/// A label for each of some runs, each by a configuration of its own.
+template <typename ValuesOf>
+std::vector<std::string> labels_by(std::span<const RunRecord* const> runs,
+                                   const ValuesOf& values_of_run) {
+  Configurations different;
+  std::vector<std::size_t> numbers;
+  for (const RunRecord* const run : runs) {
+    numbers.push_back(different.add(values_of_run(*run), run->folder));
+  }
+  const std::vector<std::string> of_different = labels_of(different);
+  std::vector<std::string> labels;
+  for (const std::size_t number : numbers) labels.push_back(of_different[number]);
+  return labels;
 }
 
 }  // namespace
@@ -250,54 +258,56 @@ std::vector<RunGroup> group_runs(std::span<const RunRecord* const> runs,
 }
 
 std::vector<std::string> setting_labels(std::span<const RunGroup> groups) {
-  Configurations settings;
-  std::vector<std::size_t> numbers;
-  for (const RunGroup& group : groups) {
-    const RunRecord& run = *group.runs.front();
-    numbers.push_back(settings.add(values_of(run, false), run.folder));
-  }
-  const std::vector<std::string> of_settings = labels_of(settings);
-  std::vector<std::string> labels;
-  for (const std::size_t number : numbers) labels.push_back(of_settings[number]);
-  return labels;
+  std::vector<const RunRecord*> first;
+  for (const RunGroup& group : groups) first.push_back(group.runs.front());
+  return labels_by(first, [](const RunRecord& run) { return values_of(run, false); });
 }
 
 std::vector<std::string> run_labels(std::span<const RunRecord> runs) {
+  using Numbers = std::vector<std::size_t>;
   std::vector<std::string> labels;
   for (const RunRecord& run : runs) labels.push_back(run_title(run));
-  add_where_shared(labels, [&](const std::vector<std::size_t>& namesakes) {
-    Configurations different;
-    std::vector<std::size_t> numbers;
-    for (const std::size_t i : namesakes) {
-      numbers.push_back(different.add(values_of(runs[i]), runs[i].folder));
-    }
-    const std::vector<std::string> of_different = labels_of(different);
-    std::vector<std::string> words;
-    for (const std::size_t number : numbers) {
-      const std::string& label = of_different[number];
-      words.push_back(label.empty() ? "" : ", " + label);
-    }
+  tell_apart(labels, [&](const Numbers& namesakes) {
+    std::vector<const RunRecord*> alike;
+    for (const std::size_t i : namesakes) alike.push_back(&runs[i]);
+    auto words = labels_by(alike, [](const RunRecord& run) { return values_of(run); });
+    for (std::string& word : words) word.insert(0, word.empty() ? "" : ", ");
     return words;
   });
-  add_where_shared(labels, [&](const std::vector<std::size_t>& namesakes) {
+  tell_apart(labels, [&](const Numbers& namesakes) {
     std::vector<std::string> words;
     for (const std::size_t i : namesakes) {
       words.push_back(fmt::format(", seed {}", runs[i].scenario.seed));
     }
     return words;
   });
-  add_where_shared(labels, [&](const std::vector<std::size_t>& namesakes) {
+  tell_apart(labels, [&](const Numbers& namesakes) {
     std::vector<std::string> words;
     for (const std::size_t i : namesakes) {
-      std::vector<fs::path> others;
+      std::vector<std::string> others;
       for (const std::size_t k : namesakes) {
-        if (k != i) others.push_back(runs[k].folder);
+        if (k != i) others.push_back(plain(runs[k].folder));
       }
-      words.push_back(fmt::format(" ({})", own_ending(runs[i].folder, others)));
+      words.push_back(fmt::format(" ({})", own_ending(plain(runs[i].folder), others)));
     }
     return words;
   });
   return labels;
+}
+
+std::vector<std::string> run_names(std::span<const fs::path> folders) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const fs::path& folder : folders) {
+    // the end of "x/run/" is an empty name, that of "." is no name; of no path at all, absolute()
+    // would throw, and read_run() will say what is wrong
+    const fs::path whole = folder.empty() ? folder : fs::absolute(folder) / ".";
+    const std::string name = whole.lexically_normal().parent_path().filename();
+    std::string free = name;
+    for (int i = 2; !taken.insert(free).second; ++i) free = fmt::format("{}-{}", name, i);
+    names.push_back(free);
+  }
+  return names;
 }
 
 std::string method_of(const RunRecord& run) {

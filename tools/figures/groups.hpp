@@ -1,6 +1,7 @@
 // Runs that belong together, and how people tell them apart.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,10 @@ std::vector<std::string> setting_labels(std::span<const RunGroup> groups);
 /// Of each run: its title, then as far as others share that, the keys in which they differ, its
 /// seed, as much of its folder's end as tells them apart.
 std::vector<std::string> run_labels(std::span<const RunRecord> runs);
+
+/// A name for each run directory, in their order: that of the folder, however its path is written
+/// ("x/run/" and "." have names, too). A number follows where two are named alike: run, run-2.
+std::vector<std::string> run_names(std::span<const std::filesystem::path> folders);
 
 /// The method of a run, as method_slots() knows it: the utility, or the preset that stands for the
 /// released code.

@@ -14,10 +14,11 @@ namespace {
 
 constexpr double kLeastVoxels = 0.5;  // where the axes begin; stands for 0, too
 
-SeriesLook look_of(std::size_t source) { return {.colour = std::string(kPalette.at(source))}; }
-
-std::string source_name(std::size_t source) {
-  return std::string(name_of(static_cast<PatchSource>(source)));
+/// Points in the colour of a source.
+Series points_of(std::size_t source) {
+  return {.name = std::string(name_of(static_cast<PatchSource>(source))),
+          .mark = Mark::points,
+          .look = {.colour = std::string(kPalette.at(source))}};
 }
 
 /// What each view of one source found over what it promised.
@@ -28,12 +29,10 @@ Series found_by_views(std::span<const ViewOutcome> outcomes, std::size_t source)
     sums[iteration][0] += gain.predicted;
     sums[iteration][1] += gain.found;
   }
-  Series series{.name = source_name(source),
-                .label = source_name(source),
-                .mark = Mark::points,
-                .look = look_of(source),
-                .width_pt = 0.0,
-                .opacity = 0.6};
+  Series series = points_of(source);
+  series.label = series.name;
+  series.width_pt = 0.0;
+  series.opacity = 0.6;
   for (const auto& [iteration, sum] : sums) {
     series.x.push_back(std::max(sum[0], kLeastVoxels));
     series.y.push_back(std::max(sum[1], kLeastVoxels));
@@ -52,7 +51,7 @@ Series share_by_looks(std::span<const ViewOutcome> outcomes, std::size_t source,
     missing.at(gain.observations) += gain.missing;
     parts.at(gain.observations) += part(gain);
   }
-  Series series{.name = source_name(source), .mark = Mark::points, .look = look_of(source)};
+  Series series = points_of(source);
   for (std::size_t looks = 0; looks < kObservationBins; ++looks) {
     if (missing.at(looks) <= 0.0) continue;
     series.x.push_back(static_cast<double>(looks));

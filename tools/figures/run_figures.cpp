@@ -17,8 +17,6 @@ constexpr std::string_view kPredictionArea = "#e69e66";
 constexpr std::size_t kManyViews = 100;
 constexpr std::size_t kWindow = 15;  // views that a mean is taken over, when there are many
 
-SeriesLook look_in(std::string_view colour) { return {.colour = std::string(colour)}; }
-
 /// How many views were taken with each: on an axis, the first view is 1.
 std::vector<double> counts_of(std::span<const ViewRecord> views) {
   std::vector<double> counts;
@@ -113,7 +111,7 @@ struct TermPanels {
     FigurePanel& panel = add(std::move(heading), values);
     Series each{.name = name + ", each view",
                 .mark = is_smooth() ? Mark::line : Mark::points,
-                .look = look_in(kPalette.at(colour)),
+                .look = {.colour = std::string(kPalette.at(colour))},
                 .width_pt = is_smooth() ? 0.3 : 0.0,
                 .size_pt = 1.4,
                 .opacity = is_smooth() ? 0.35 : 1.0,
@@ -124,14 +122,6 @@ struct TermPanels {
   }
 };
 
-/// Q, and what there is of a prediction that nobody sees beside the density.
-std::string heading_of_quality(const Eq2& eq2, double most_prediction, bool is_seen) {
-  const std::string formula = eq2.is_normalised ? "Q = (β D + γ P) / (β + γ)" : "Q = β D + γ P";
-  if (is_seen) return formula;
-  if (most_prediction == 0.0) return formula + ", P = 0";
-  return fmt::format("{}, P ≤ {:.2g}", formula, most_prediction / eq2.gamma);
-}
-
 void add_quality(TermPanels& terms, const Eq2& eq2) {
   const auto density = terms.column([&](const Score& s) { return eq2.density(s); });
   const auto prediction = terms.column([&](const Score& s) { return eq2.prediction(s); });
@@ -141,13 +131,16 @@ void add_quality(TermPanels& terms, const Eq2& eq2) {
   constexpr double kLeastSeen = 0.02;
   const double most = *std::max_element(prediction.begin(), prediction.end());
   const bool is_seen = most > kLeastSeen * *std::max_element(quality.begin(), quality.end());
-  FigurePanel& panel = terms.add(heading_of_quality(eq2, most, is_seen), quality);
+  std::string heading = eq2.is_normalised ? "Q = (β D + γ P) / (β + γ)" : "Q = β D + γ P";
+  if (!is_seen && most == 0.0) heading += ", P = 0";
+  if (!is_seen && most > 0.0) heading += fmt::format(", P ≤ {:.2g}", most / eq2.gamma);
+  FigurePanel& panel = terms.add(std::move(heading), quality);
   const auto area = [&](std::string name, std::string_view colour, const auto& low,
                         const auto& high) {
     panel.series.push_back({.name = name,
                             .label = name,
                             .mark = Mark::area,
-                            .look = look_in(colour),
+                            .look = {.colour = std::string(colour)},
                             .x = counts_of(terms.views),
                             .y = terms.smooth(high),
                             .low = terms.smooth(low),
@@ -180,9 +173,7 @@ void add_gain(TermPanels& terms) {
   terms.height_px = 300;
   terms.add_line("utility", "utility", 6, terms.column([](const Score& s) { return s.value; }));
   const auto distance = terms.column([](const Score& s) { return s.distance; });
-  const bool is_discounted =
-      std::any_of(distance.begin(), distance.end(), [](double factor) { return factor != 1.0; });
-  if (!is_discounted) return;
+  if (std::count(distance.begin(), distance.end(), 1.0) == std::ssize(distance)) return;
   terms.add_line("the product of gain", "gain", 0,
                  terms.column([](const Score& s) { return s.information; }));
   terms.add_line("and distance factor", "distance factor", 3, distance);
@@ -210,7 +201,7 @@ std::optional<Figure> density_entropy_figure(const RunRecord& record, bool has_d
                        const std::vector<double>& values, std::size_t colour) {
     figure.panels.push_back(panel_over_views(record, std::move(heading), y, kHeight_px));
     figure.panels.back().series.push_back({.name = std::move(name),
-                                           .look = look_in(kPalette.at(colour)),
+                                           .look = {.colour = std::string(kPalette.at(colour))},
                                            .width_pt = 1.0,
                                            .x = counts,
                                            .y = values,

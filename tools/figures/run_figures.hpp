@@ -1,7 +1,10 @@
-// Figures of one run: what it knew, what its views were worth, what they brought.
+// Figures of one run: what it knew, what its views were worth, what they brought, how it was flown.
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "tools/figures/figure.hpp"
 #include "tools/run/run_record.hpp"
@@ -24,6 +27,26 @@ std::optional<Figure> terms_figure(const RunRecord& record);
 /// promised, by the looks before, a panel an incidence. Nothing for a run without predictions.csv,
 /// or an empty one. Throws BadInput as read_predictions_csv().
 std::optional<Figure> predictions_figure(const RunRecord& record);
+
+/// "flight": position, attitude, speed and distance from the leg over the time of the views, from
+/// trajectory.tum. Nothing for a run without two views, or without its path.
+std::optional<Figure> flight_figure(const RunRecord& record);
+
+/// "tracking": over the time of the views, how far the vehicle truly was from the straight legs
+/// that were checked for it, beside what the collision radius leaves beyond the hull (the safety
+/// margin); and its tilt. Nothing for a run without two views, or without its path.
+std::optional<Figure> tracking_figure(const RunRecord& record);
+
+/// A line of yaws in [-180, 180] deg: what goes past 180 is drawn on to 190 before the line breaks
+/// (NaN) and goes on at the other end, so that a vehicle that looks that way does not jump to and
+/// fro.
+Series yaw_series(std::span<const double> times_s, std::span<const double> yaws_deg);
+
+/// Samples over time: as they are, or of many the mean of each of 240 even steps, and a band from
+/// that share of its samples to that one.
+Series trace(std::string name, const std::vector<double>& times_s,
+             const std::vector<double>& values, std::size_t colour, double from = 0.0,
+             double to = 1.0);
 
 /// Who flew, and by which seed: the title of a figure of one run.
 std::string run_and_seed(const RunRecord& record);

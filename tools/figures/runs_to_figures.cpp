@@ -3,14 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <functional>
 #include <optional>
+#include <regex>
+#include <utility>
 
 #include "sim/core/error.hpp"
-#include "tools/figures/flight_figures.hpp"
 #include "tools/figures/group_figures.hpp"
-#include "tools/figures/names.hpp"
 #include "tools/figures/run_figures.hpp"
 
 namespace gnbv {
@@ -22,21 +20,15 @@ bool wants(const FigureRequest& request, const std::string& kind) {
   return std::find(request.kinds.begin(), request.kinds.end(), kind) != request.kinds.end();
 }
 
-/// What follows the names of figures of one run: nothing for a single run, else "-RUN".
-std::vector<std::string> name_ends(std::span<const RunRecord> records) {
-  if (records.size() == 1) return {""};
+/// The figures of single runs, each named after its run where there are several. Where
+/// `has_densities`, another figure has those of all of them.
+std::vector<Figure> figures_of_each(std::span<const RunRecord> records,
+                                    const FigureRequest& request, bool has_densities,
+                                    std::vector<std::string>& notes) {
   std::vector<std::filesystem::path> folders;
   for (const RunRecord& record : records) folders.push_back(record.folder);
-  std::vector<std::string> ends = run_names(folders);
-  for (std::string& end : ends) end.insert(0, "-");
-  return ends;
-}
-
-/// Where `has_densities`, another figure has those of all of them.
-void add_figures_of_each(std::span<const RunRecord> records, const FigureRequest& request,
-                         bool has_densities, std::vector<Figure>& figures,
-                         std::vector<std::string>& notes) {
-  const std::vector<std::string> ends = name_ends(records);
+  const std::vector<std::string> names = run_names(folders);
+  std::vector<Figure> figures;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const RunRecord& record = records[i];
     const auto add = [&](const std::string& kind, const std::string& name, const auto& make) {
@@ -46,7 +38,7 @@ void add_figures_of_each(std::span<const RunRecord> records, const FigureRequest
         notes.push_back(fmt::format("{}: no views to plot as {}", record.folder.string(), name));
         return;
       }
-      figure->name = name + ends[i];
+      figure->name = records.size() > 1 ? name + "-" + names[i] : name;
       figures.push_back(std::move(*figure));
     };
     add("density", has_densities ? "entropy" : "density",
@@ -56,6 +48,7 @@ void add_figures_of_each(std::span<const RunRecord> records, const FigureRequest
     add("tracking", "tracking", [&] { return tracking_figure(record); });
     add("flight", "flight", [&] { return flight_figure(record); });
   }
+  return figures;
 }
 
 /// Of each group the runs that were scored at the size; groups without any are gone.
@@ -98,55 +91,39 @@ void add_reach(const std::vector<RunGroup>& groups, int percent, std::vector<Fig
       "finds it");
 }
 
-bool is_colour(const std::string& text) {
-  return text.size() == 7 && text[0] == '#' &&
-         text.find_first_not_of("0123456789abcdef", 1) == std::string::npos;
-}
-
-/// Finds groups by the words of a user.
+/// Finds groups by the words of a user: the label, the method, or the number from 1.
 class GroupFinder {
  public:
   explicit GroupFinder(std::span<const RunGroup> groups) {
     const std::string title = common_scenario(groups);
-    for (const RunGroup& group : groups) {
-      labels_.push_back(label_below(title, group.label));
-      methods_.push_back(method_of(*group.runs.front()));
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      labels_.push_back(label_below(title, groups[i].label));
+      methods_.push_back(method_of(*groups[i].runs.front()));
+      numbers_.push_back(std::to_string(i + 1));
     }
   }
 
-  /// By label, method, or number from 1.
-  std::optional<std::size_t> find(std::string_view word) const {
-    for (const std::vector<std::string>* const names : {&labels_, &methods_}) {
-      const auto at = std::find(names->begin(), names->end(), word);
-      if (at != names->end()) return static_cast<std::size_t>(at - names->begin());
+  /// Of "GROUP=VALUE"; either may hold an equals sign.
+  std::pair<std::size_t, std::string> need_pair(const char* option, const std::string& text) const {
+    if (text.find('=') == std::string::npos) {
+      throw BadInput(fmt::format("{}: value '{}': must be GROUP=VALUE", option, text));
     }
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    const bool is_number = error == std::errc() && end == word.data() + word.size();
-    if (!is_number || number < 1 || number > labels_.size()) return std::nullopt;
-    return number - 1;
+    for (const std::vector<std::string>* const names : {&labels_, &methods_, &numbers_}) {
+      for (std::size_t i = 0; i < names->size(); ++i) {
+        const std::string said = names->at(i) + "=";
+        if (text.starts_with(said)) return {i, text.substr(said.size())};
+      }
+    }
+    throw BadInput(fmt::format("{}: value '{}': no such group; there are: {}", option,
+                               text.substr(0, text.rfind('=')), fmt::join(labels_, ", ")));
   }
 
   std::size_t need(const char* option, const std::string& word) const {
-    if (const std::optional<std::size_t> group = find(word)) return *group;
-    throw BadInput(fmt::format("{}: value '{}': no such group; there are: {}", option, word,
-                               fmt::join(labels_, ", ")));
-  }
-
-  /// "GROUP=VALUE"; either may hold an equals sign.
-  std::pair<std::size_t, std::string> need_pair(const char* option, const std::string& text) const {
-    std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw BadInput(fmt::format("{}: value '{}': must be GROUP=VALUE", option, text));
-    }
-    for (std::size_t at = equals; at != std::string::npos; at = text.find('=', at + 1)) {
-      if (find(text.substr(0, at))) equals = at;
-    }
-    return {need(option, text.substr(0, equals)), text.substr(equals + 1)};
+    return need_pair(option, word + "=").first;
   }
 
  private:
-  std::vector<std::string> labels_, methods_;
+  std::vector<std::string> labels_, methods_, numbers_;
 };
 
 }  // namespace
@@ -167,46 +144,38 @@ void dress_groups(std::vector<RunGroup>& groups, const FigureRequest& request) {
   for (const std::string& text : request.colours) {
     auto [group, colour] = finder.need_pair("--colors", text);
     std::transform(colour.begin(), colour.end(), colour.begin(), ::tolower);
-    if (!is_colour(colour)) {
+    if (!std::regex_match(colour, std::regex("#[0-9a-f]{6}"))) {
       throw BadInput(fmt::format("--colors: value '{}': a colour is #rrggbb", text));
     }
     groups[group].look.colour = colour;
   }
-  std::vector<std::size_t> places(groups.size(), request.order.size());
-  for (std::size_t i = 0; i < request.order.size(); ++i) {
-    places[finder.need("--order", request.order[i])] = i;
-  }
-  std::vector<std::size_t> numbers(groups.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  std::stable_sort(numbers.begin(), numbers.end(),
-                   [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+  std::vector<std::size_t> order;
+  for (const std::string& word : request.order) order.push_back(finder.need("--order", word));
+  for (std::size_t i = 0; i < groups.size(); ++i) order.push_back(i);
   std::vector<RunGroup> ordered;
-  for (const std::size_t number : numbers) ordered.push_back(std::move(groups[number]));
+  for (const std::size_t i : order) {
+    if (!groups[i].runs.empty()) ordered.push_back(std::exchange(groups[i], {}));
+  }
   groups = std::move(ordered);
 }
 
 std::vector<Figure> figures_of_runs(std::span<const RunRecord> records,
                                     const FigureRequest& request, std::vector<std::string>& notes) {
-  std::vector<Figure> of_groups;
-  const bool has_groups =
-      wants(request, "coverage") || wants(request, "reach") || wants(request, "density");
   std::vector<RunGroup> groups;
-  if (has_groups) groups = group_runs(records, notes);
+  if (wants(request, "coverage") || wants(request, "reach") || wants(request, "density")) {
+    groups = group_runs(records, notes);
+  }
   dress_groups(groups, request);
   std::optional<Figure> densities;
   if (wants(request, "density") && groups.size() > 1) densities = density_figure(groups);
-  if (!groups.empty() && wants(request, "coverage")) {
-    add_coverage(groups, request.voxel_m, of_groups, notes);
-  }
-  std::vector<Figure> figures;
-  add_figures_of_each(records, request, densities.has_value(), figures, notes);
-  if (densities) of_groups.push_back(std::move(*densities));
+  std::vector<Figure> figures = figures_of_each(records, request, densities.has_value(), notes);
+  if (wants(request, "coverage")) add_coverage(groups, request.voxel_m, figures, notes);
+  if (densities) figures.push_back(std::move(*densities));
   // how many runs got there says nothing of a single one
   if (!groups.empty() && wants(request, "reach") &&
       (records.size() > 1 || request.has_reach_of_one)) {
-    add_reach(groups, request.reach_percent, of_groups, notes);
+    add_reach(groups, request.reach_percent, figures, notes);
   }
-  for (Figure& figure : of_groups) figures.push_back(std::move(figure));
   for (Figure& figure : figures) {
     if (!request.title.empty()) figure.title = request.title;
   }

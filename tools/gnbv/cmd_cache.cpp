@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/compare/terminal_table.hpp"
+#include "bench/compare/text_table.hpp"
 #include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"

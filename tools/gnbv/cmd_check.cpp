@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "bench/compare/baseline.hpp"
-#include "bench/compare/check_text.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
@@ -60,7 +59,7 @@ void check(const CheckOptions& options) {
   const Baseline baseline = read_baseline(options.against);
   const BaselineCheck check =
       check_against(baseline, options.against, read_run_figures(options.run));
-  fmt::print("{}", options.json ? check_json(baseline, check) : check_text(baseline, check));
+  fmt::print("{}", options.json ? check_json(check) : terminal_text(check_table(check)));
   const std::string worse = regressed_text(options, check);
   if (!worse.empty()) throw CommandFailed(worse);
 }

@@ -5,7 +5,6 @@
 
 #include "sim/core/file.hpp"
 #include "tools/figures/figure_files.hpp"
-#include "tools/figures/forest_figure.hpp"
 #include "tools/figures/group_figures.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"

@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "sim/core/error.hpp"
-#include "tools/figures/names.hpp"
+#include "tools/figures/groups.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/render_options.hpp"
 #include "tools/mission/execute.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/compare/terminal_table.hpp"
+#include "bench/compare/text_table.hpp"
 #include "scenarios/validation_error.hpp"
 #include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/width.hpp"
@@ -102,8 +102,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
 void print_bench(const BenchTables& bench, const std::string& format) {
   for (const TextTable& table : bench.tables) {
     fmt::print("{}{}", &table == &bench.tables.front() ? "" : "\n",
-               format == "terminal" ? terminal_text(table, stdout_columns())
-                                    : formatted_text(table, format));
+               formatted_text(table, format, stdout_columns()));
   }
   if (bench.failures.empty()) return;
   throw CommandFailed(

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/paper_table.hpp"
-#include "bench/compare/table_groups.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"

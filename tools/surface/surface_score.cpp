@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/terminal_table.hpp"
+#include "bench/compare/text_table.hpp"
 #include "bench/score/cloud_metrics.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bench/compare/comparison_text.hpp"
 #include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/compare/effort_table.hpp"
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
 #include "planner/planners.hpp"

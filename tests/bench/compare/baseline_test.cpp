@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -130,89 +132,77 @@ TEST(Baseline, ReadsBackWhatItWrote) {
   EXPECT_NO_THROW(check_against(read, file, run()));
 }
 
-TEST(Baseline, IsNotUpdatedByARunOfSomethingElseThanAnotherVersion) {
-  const Baseline before = make_baseline(run());
-  RunFigures next = run();
-  next.version = "1.3.0";
-  next.termination = "max_iterations";
-  const Baseline after = updated_baseline(next, before, "b.json");
-  EXPECT_EQ(after.of.version, "1.3.0");
-  EXPECT_EQ(after.termination, "max_iterations");
-  const auto expect_refused = [&](auto change) {
-    RunFigures other = run();
-    change(other);
-    EXPECT_THROW(updated_baseline(other, before, "b.json"), BadInput);
-  };
-  expect_refused([](RunFigures& r) { r.scenario = "aircraft"; });
-  expect_refused([](RunFigures& r) { r.structure = "ship.obj"; });
-  expect_refused([](RunFigures& r) { r.utility = "isler"; });
-  expect_refused([](RunFigures& r) { r.preset = "released"; });
-  expect_refused([](RunFigures& r) { r.seed = 4; });
-}
-
+/// Of another version it may be where it is updated.
 TEST(Baseline, OfSomethingElseNamesEveryDifference) {
   const Baseline baseline = make_baseline(run());
   RunFigures other = run();
-  other.scenario = "aircraft";
-  other.structure = "ship.obj";
-  other.utility = "isler";
-  other.preset = "released";
-  other.seed = 4;
   other.version = "1.3.0";
+  other.termination = "max_iterations";
+  EXPECT_EQ(updated_baseline(other, baseline, "b.json").of.version, "1.3.0");
+  EXPECT_EQ(updated_baseline(other, baseline, "b.json").termination, "max_iterations");
+  const std::vector<std::function<void(RunFigures&)>> changes = {
+      [](RunFigures& r) { r.scenario = "aircraft"; },
+      [](RunFigures& r) { r.structure = "ship.obj"; }, [](RunFigures& r) { r.utility = "isler"; },
+      [](RunFigures& r) { r.preset = "released"; }, [](RunFigures& r) { r.seed = 4; }};
+  for (const auto& change : changes) {
+    RunFigures one = run();
+    change(one);
+    EXPECT_THROW(updated_baseline(one, baseline, "b.json"), BadInput);
+    change(other);
+  }
   EXPECT_TRUE(test::says(test::fault_of([&] { check_against(baseline, "b.json", other); }),
                          {"b.json", "aircraft", "ship.obj", "isler", "released", "4", "1.3.0"}));
 }
 
-/// A baseline file with one place of its text changed.
-struct FileFault {
-  const char* name;
-  const char* was;
-  const char* is;
-  const char* word;  // of the complaint
-};
-
-class BaselineFile : public testing::TestWithParam<FileFault> {};
-
-TEST_P(BaselineFile, WithAFaultIsRefusedByKey) {
-  TempFolder temp;
-  const fs::path file = temp.path() / "b.json";
-  std::string text = to_json(make_baseline(run()));
-  const std::size_t at = text.find(GetParam().was);
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, std::string(GetParam().was).size(), GetParam().is);
-  std::ofstream(file) << text;
-  const std::string fault = test::fault_of([&] { read_baseline(file); });
-  EXPECT_TRUE(test::says(fault, {"b.json", GetParam().word}));
-  EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+TEST(Baseline, AFileWithAFaultIsRefusedByKey) {
+  struct Fault {
+    const char* was;
+    const char* is;
+    const char* word;  // of the complaint
+  };
+  for (const auto& [was, is, word] : std::vector<Fault>{
+           {"gnbv-baseline-1", "gnbv-baseline-2", "schema"},
+           {"\"termination\": \"entropy_change\"", "\"termination\": 1", "termination"},
+           {"{", "", "JSON"},
+           {"\"chamfer_m\"", "\"shamfer_m\"", "metrics.chamfer_m"},
+           {"\"tolerance\": 0.02", "\"tolerance\": \"0.02\"", "metrics.coverage_0.05.tolerance"},
+           {"\"tolerance\": 0.02", "\"tolerance\": -1", "metrics.coverage_0.05.tolerance"},
+           {"\"tolerance\": 0.02", "\"tolerance\": 1e999", "JSON"},
+           {"\"value\": 0.5", "\"value\": null", "metrics.coverage_0.05.value"},
+           {"\"higher\"", "\"more\"", "more"},
+           {"\"seed\": 3", "\"seed\": -3", "of.seed"},
+           {"\"utility\"", "\"untility\"", "of.utility"},
+           {"\"metrics\": {", "\"metrics\": {\"beauty\": {},", "metrics.beauty"}}) {
+    SCOPED_TRACE(is);
+    const TempFolder temp;
+    std::string text = to_json(make_baseline(run()));
+    text.replace(text.find(was), std::string_view(was).size(), is);
+    std::ofstream(temp.path() / "b.json") << text;
+    const std::string fault = test::fault_of([&] { read_baseline(temp.path() / "b.json"); });
+    EXPECT_TRUE(test::says(fault, {"b.json", word}));
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Baseline, BaselineFile,
-    testing::Values(
-        FileFault{"Schema", "gnbv-baseline-1", "gnbv-baseline-2", "schema"},
-        FileFault{"Termination", "\"termination\": \"entropy_change\"", "\"termination\": 1",
-                  "termination"},
-        FileFault{"NoJson", "{", "", "JSON"},
-        FileFault{"MetricMissing", "\"chamfer_m\"", "\"shamfer_m\"", "metrics.chamfer_m"},
-        FileFault{"Tolerance", "\"tolerance\": 0.02", "\"tolerance\": \"0.02\"",
-                  "metrics.coverage_0.05.tolerance"},
-        FileFault{"NegativeTolerance", "\"tolerance\": 0.02", "\"tolerance\": -1",
-                  "metrics.coverage_0.05.tolerance"},
-        FileFault{"InfiniteTolerance", "\"tolerance\": 0.02", "\"tolerance\": 1e999", "JSON"},
-        FileFault{"Value", "\"value\": 0.5", "\"value\": null", "metrics.coverage_0.05.value"},
-        FileFault{"Better", "\"higher\"", "\"more\"", "more"},
-        FileFault{"Seed", "\"seed\": 3", "\"seed\": -3", "of.seed"},
-        FileFault{"Subject", "\"utility\"", "\"untility\"", "of.utility"}),
-    [](const auto& fault) { return std::string(fault.param.name); });
-
-TEST(Baseline, WithAMetricThatIsNoneIsRefused) {
-  TempFolder temp;
-  const fs::path file = temp.path() / "b.json";
-  std::string text = to_json(make_baseline(run()));
-  text.replace(text.find("\"metrics\": {"), 12,
-               "\"metrics\": {\"beauty\": {\"value\": 1, \"tolerance\": 1, \"better\": \"same\"},");
-  std::ofstream(file) << text;
-  EXPECT_TRUE(test::says(test::fault_of([&] { read_baseline(file); }), {"metrics.beauty"}));
+/// What people and programs read of a check: the changes beyond their tolerance, and all of them.
+TEST(Baseline, ACheckIsATableOfWhatChangedAndJsonOfAll) {
+  RunFigures now = run();
+  now.coverage_final[0] = 0.4;
+  now.straight_m = 10.0;
+  now.termination = "battery";
+  const BaselineCheck check = check_against(make_baseline(run()), "b.json", now);
+  const TextTable table = check_table(check);
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.rows[0][0].text, "regressed");
+  EXPECT_EQ(table.rows[0][4].text, "-0.1");
+  EXPECT_EQ(table.rows[1][0].text, "better");
+  EXPECT_EQ(table.notes, (std::vector<std::string>{
+                             "regressed termination: battery, the baseline's is entropy_change",
+                             "10 of 12 metrics within their tolerance"}));
+  const auto json = nlohmann::json::parse(check_json(check));
+  EXPECT_EQ(json.at("regressed"), 2);
+  EXPECT_EQ(json.at("metrics").size(), 12U);
+  EXPECT_EQ(json.at("metrics").at(0).at("verdict"), "regressed");
 }
 
 }  // namespace

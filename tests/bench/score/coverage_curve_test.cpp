@@ -171,17 +171,18 @@ CoverageCurve straight_line(int views) {
   return curve;
 }
 
-TEST(AreaUnderCoverage, OfALineIsItsMiddle) {
+/// Surface counts from the view that saw it: each share lasts until the next view.
+TEST(AreaUnderCoverage, IsThatOfSteps) {
   const CoverageCurve curve = straight_line(8);
   for (const auto& [effort, length] :
        {std::pair{Effort::views, 8.0}, {Effort::metres, 16.0}, {Effort::seconds, 32.0}}) {
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, length), 0.4, 1e-12);
-    EXPECT_NEAR(area_under_coverage(curve, effort, 1, length), 0.2, 1e-12);
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, length), 0.35, 1e-12);
+    EXPECT_NEAR(area_under_coverage(curve, effort, 1, length), 0.175, 1e-12);
     EXPECT_NEAR(area_under_coverage(curve, effort, 2, length), 1.0, 1e-12);
-    // a budget within a step: the line up to there
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 0.3 * length), 0.12, 1e-12);
-    // and past the end, where coverage stays: (0.4 + 0.8) / 2
-    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 2.0 * length), 0.6, 1e-12);
+    // a budget of 2.4 views: (0.1 + 0.4 * 0.2) / 2.4
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 0.3 * length), 0.075, 1e-12);
+    // and past the end, where coverage stays: (0.35 + 0.8) / 2
+    EXPECT_NEAR(area_under_coverage(curve, effort, 0, 2.0 * length), 0.575, 1e-12);
   }
 }
 
@@ -189,7 +190,7 @@ TEST(AreaUnderCoverage, AStepWithoutEffortHasNoneAndTheProfileAloneItsCoverage) 
   const CoverageCurve step{.coverage = {{0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}},
                            .metres = {0.0, 0.0, 10.0},
                            .seconds = {0.0, 1.0, 2.0}};
-  EXPECT_NEAR(area_under_coverage(step, Effort::metres, 0, 10.0), 0.75, 1e-12);
+  EXPECT_NEAR(area_under_coverage(step, Effort::metres, 0, 10.0), 0.5, 1e-12);
   const CoverageCurve profile{.coverage = {{0.1, 0.2, 0.3}}, .metres = {0.0}, .seconds = {0.0}};
   EXPECT_EQ(profile.views(), 0U);
   EXPECT_NEAR(area_under_coverage(profile, Effort::seconds, 1, 7.0), 0.2, 1e-12);

@@ -1,7 +1,6 @@
 // Laws of the figures of a flight: they show its path.
-#include "tools/figures/flight_figures.hpp"
-
 #include "tests/tools/figures/figure_support.hpp"
+#include "tools/figures/run_figures.hpp"
 
 namespace gnbv {
 namespace {

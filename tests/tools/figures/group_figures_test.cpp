@@ -1,4 +1,4 @@
-// Laws of the figures of several runs: coverage, density, and how many got how far.
+// Laws of the figures of several runs: coverage, density, how many got how far, differences.
 #include "tools/figures/group_figures.hpp"
 
 #include <gmock/gmock.h>
@@ -12,6 +12,9 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Values = std::vector<double>;
+
+/// 95 % interval of the mean of three numbers that are so far apart.
+double half_width(double apart) { return 4.302652730 * apart / std::sqrt(3.0); }
 
 std::vector<RunRecord> seeds_of_coverage(std::size_t count) {
   std::vector<RunRecord> runs;
@@ -36,26 +39,14 @@ TEST(GroupFigures, FewSeedsAreDrawnThemselvesAndMoreAsAnInterval) {
     const Series mean = series_of(figure, "some");
     EXPECT_EQ(mean.mark, Mark::steps);
     EXPECT_EQ(mean.low.empty(), count < 3) << count;
+    const double half = count == 3 ? half_width(1.0) : 0.0;
+    EXPECT_NEAR(mean.high.empty() ? 0.0 : mean.high[2] - mean.y[2], half, 1e-6);
     EXPECT_EQ(series_of(figure, "some, run 2").y.empty(), count != 2) << count;
     EXPECT_EQ(has_note(figure, "thin: each of two seeds"), count == 2) << count;
     EXPECT_THAT(labels_in(figure), Contains(labels[count - 1]));
   }
   EXPECT_EQ(series_of(coverage_of(seeds_of_coverage(2), Effort::views), "some, run 2").y,
             (Values{83, 90, 92}));
-}
-
-/// t(0.975, 4) = 2.776445; the deviation of 0.5 +- {0, 1, 2} / 10 is sqrt(0.1 / 4).
-TEST(GroupFigures, BandsAreStudentsIntervals) {
-  std::vector<RunRecord> runs;
-  for (int i = 0; i < 5; ++i) {
-    runs.push_back(covered_record(static_cast<std::uint64_t>(i + 1), {0.2, 0.3 + 0.1 * i}));
-  }
-  const Series mean = series_of(coverage_of(runs, Effort::views), "some");
-  const double half = 100.0 * 2.776445105 * std::sqrt(0.025) / std::sqrt(5.0);
-  EXPECT_NEAR(mean.y[1], 50.0, 1e-9);
-  EXPECT_NEAR(mean.low[1], 50.0 - half, 1e-6);
-  EXPECT_NEAR(mean.high[1], 50.0 + half, 1e-6);
-  EXPECT_NEAR(mean.high[0] - mean.low[0], 0.0, 1e-9);
 }
 
 /// A table says what seeds took as a mean: the mark stands there, not where the longest ends.
@@ -69,14 +60,6 @@ TEST(GroupFigures, TheMarkIsOnTheMeanCurveAtTheMeanLength) {
   runs[1] = covered_record(2, {0.2, 0.4, 0.8});
   runs[1].figures->curve.metres.back() = 4.03;
   EXPECT_FALSE(has_note(coverage_of(runs), "mean end"));
-}
-
-/// Views that turn in place take no metres: what they cover begins the curve.
-TEST(GroupFigures, ViewsFromTheFirstPlaceLeaveNoStub) {
-  std::vector<RunRecord> runs = {covered_record(1, {0.2, 0.4, 0.6, 0.7})};
-  runs[0].figures->curve.metres = {0.0, 0.0, 0.0, 7.0};
-  EXPECT_EQ(series_of(coverage_of(runs), "some").y, (Values{60, 70}));
-  EXPECT_EQ(series_of(coverage_of(runs, Effort::views), "some").y.size(), 4U);
 }
 
 /// A ceiling is known at 0.05 m: at other sizes there is no line, least of all one at 0 %.
@@ -198,6 +181,58 @@ TEST(GroupFigures, ADensityIsTheMeanOfAllSeedsAlsoPastTheEndOfSome) {
     ASSERT_EQ(series.y.size(), runs[0].views.size());
     EXPECT_EQ(series.y[3], runs[0].views[3].density_points_per_voxel);
   }
+}
+
+ComparedRun compared(const std::string& method, int seed, double coverage, double straight_m) {
+  ComparedRun run{.scenario = "smoke",
+                  .method = method,
+                  .seed = static_cast<std::uint64_t>(seed),
+                  .figures = {}};
+  run.figures.coverage_final = {coverage, coverage, coverage};
+  run.figures.straight_m = straight_m;
+  return run;
+}
+
+TEST(ForestFigure, HoldsSharesInPointsAndOthersInPercentOfTheBaseline) {
+  std::vector<ComparedRun> runs;
+  for (int seed = 1; seed <= 3; ++seed) {
+    const double base = 0.5 + 0.01 * seed;
+    runs.push_back(compared("a", seed, base, 200.0));
+    runs.push_back(compared("b", seed, base + 0.1 + 0.001 * seed, 200.0 + 50.0 + seed));
+  }
+  const auto figure = forest_figure(compare(runs, "a", {}), 0);
+  ASSERT_TRUE(figure.has_value());
+  EXPECT_EQ(figure->name, "forest-smoke");
+  ASSERT_EQ(figure->panels.size(), 2U);
+  EXPECT_EQ(figure->panels[0].x.label, "difference to A (percentage points)");
+  const Series points = series_of(*figure, "B");
+  EXPECT_FALSE(points.is_filled);  // three seeds: no test could reject
+  EXPECT_NEAR(points.x[0], 10.2, 1e-6);
+  EXPECT_NEAR(points.low[0], 10.2 - half_width(0.1), 1e-4);
+  EXPECT_NEAR(points.high[0], 10.2 + half_width(0.1), 1e-4);
+  const auto& names = figure->panels[1].y.ticks;
+  const Series percent = figure->panels[1].series.front();
+  const auto row = std::find_if(percent.x.begin(), percent.x.end(),
+                                [](double x) { return std::abs(x - 26.0) < 1e-6; }) -
+                   percent.x.begin();
+  ASSERT_LT(row, std::ssize(percent.x));
+  EXPECT_NEAR(percent.high[static_cast<std::size_t>(row)], 26.0 + half_width(0.5), 1e-4);
+  for (const AxisTick& name : names) EXPECT_EQ(name.text.find(" (m)"), std::string::npos);
+}
+
+/// The axis ends half beyond the largest mean, with room for an arrow; data stay what they are.
+TEST(ForestFigure, AWideIntervalDoesNotPressTheOthersTogether) {
+  std::vector<ComparedRun> runs;
+  for (int seed = 1; seed <= 3; ++seed) {
+    runs.push_back(compared("a", seed, 0.5, 200.0));
+    runs.push_back(compared("b", seed, 0.5 + 0.001 * seed, 200.0));
+    runs.push_back(compared("c", seed, 0.48 + 0.02 * seed, 200.0));
+  }
+  const auto figure = forest_figure(compare(runs, "a", {}), 0);
+  ASSERT_TRUE(figure.has_value());
+  EXPECT_NEAR(series_of(*figure, "C").high[0], 2.0 + half_width(2.0), 1e-4);
+  EXPECT_GT(figure->panels[0].x.high, 3.0);
+  EXPECT_LT(figure->panels[0].x.high, 3.5);
 }
 
 }  // namespace

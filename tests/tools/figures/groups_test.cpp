@@ -9,11 +9,18 @@
 
 #include "sim/core/error.hpp"
 #include "tests/support/covered_record.hpp"
-#include "tools/figures/names.hpp"
 #include "tools/figures/runs_to_figures.hpp"
 
 namespace gnbv {
 namespace {
+
+using Names = std::vector<std::string>;
+
+Names group_labels(const std::vector<RunRecord>& runs) {
+  Names notes, labels;
+  for (const RunGroup& group : group_runs(runs, notes)) labels.push_back(group.label);
+  return labels;
+}
 
 TEST(RunGroups, RunsOfOneMethodAreOneGroup) {
   std::vector<RunRecord> runs = {covered_record(1, {0.2}), covered_record(2, {0.2}),
@@ -42,28 +49,21 @@ TEST(RunGroups, LabelsSayNoMoreThanIsNeeded) {
   runs[2].scenario.name = "lab";
   runs[2].scenario.planner.map.resolution_m = 0.1;
   runs[2].scenario.planner.floor_z_m = 0.4;
-  const auto labels = [&] {
-    std::vector<std::string> notes;
-    std::vector<std::string> all;
-    for (const RunGroup& group : group_runs(runs, notes)) all.push_back(group.label);
-    return all;
-  };
-  EXPECT_EQ(labels(),
-            (std::vector<std::string>{"Smoke, leaf_m=0.05", "Smoke, leaf_m=0.07", "Lab"}));
+  EXPECT_EQ(group_labels(runs), (Names{"Smoke, leaf_m=0.05", "Smoke, leaf_m=0.07", "Lab"}));
   runs[1].scenario.planner.map.resolution_m = 0.1;
   runs[1].scenario.planner.floor_z_m = 0.4;
   runs[0].folder = "runs/a";
   runs[1].folder = "runs/b";
-  EXPECT_EQ(labels(), (std::vector<std::string>{"Smoke, a", "Smoke, b", "Lab"}));
+  EXPECT_EQ(group_labels(runs), (Names{"Smoke, a", "Smoke, b", "Lab"}));
   runs[3].scenario.structure.builtin.clear();
   runs[3].scenario.structure.file.path = "/meshes/my_a340.obj";  // whose other keys follow from it
   runs[3].scenario.planner.floor_z_m = 0.4;
-  EXPECT_EQ(labels().back(), "Smoke (my_a340.obj)");
+  EXPECT_EQ(group_labels(runs).back(), "Smoke (my_a340.obj)");
   runs.resize(2);
   runs[1].scenario = runs[0].scenario;
   runs[0].scenario.cameras[0].rate_hz = runs[0].scenario.lidars[0].rate_hz = 1.0;
   runs[1].scenario.cameras[0].rate_hz = runs[1].scenario.lidars[0].rate_hz = 2.0;
-  EXPECT_EQ(labels()[1], "cameras.0.rate_hz=2, lidars.0.rate_hz=2");
+  EXPECT_EQ(group_labels(runs)[1], "cameras.0.rate_hz=2, lidars.0.rate_hz=2");
 }
 
 TEST(RunLabels, RunsAreToldApartByAsMuchAsItTakes) {
@@ -75,20 +75,19 @@ TEST(RunLabels, RunsAreToldApartByAsMuchAsItTakes) {
   c.scenario.planner.utility.name = "bircher";
   RunRecord d = c;
   d.scenario.seed = 2;
-  using Labels = std::vector<std::string>;
   const auto labels = [](const std::vector<RunRecord>& runs) { return run_labels(runs); };
-  EXPECT_EQ(labels({a, c}), (Labels{"Smoke, Proposed", "Smoke, Bircher"}));
-  EXPECT_EQ(labels({c, d}), (Labels{"Smoke, Bircher, seed 1", "Smoke, Bircher, seed 2"}));
+  EXPECT_EQ(labels({a, c}), (Names{"Smoke, Proposed", "Smoke, Bircher"}));
+  EXPECT_EQ(labels({c, d}), (Names{"Smoke, Bircher, seed 1", "Smoke, Bircher, seed 2"}));
   EXPECT_EQ(labels({a, b})[1], "Smoke, Proposed, seed 1 (b)");
   b.folder = "/else/where/a";
-  EXPECT_EQ(labels({a, b}), (Labels{"Smoke, Proposed, seed 1 (runs/a)",  //
-                                    "Smoke, Proposed, seed 1 (where/a)"}));
+  EXPECT_EQ(labels({a, b}), (Names{"Smoke, Proposed, seed 1 (runs/a)",  //
+                                   "Smoke, Proposed, seed 1 (where/a)"}));
   a.folder = "runs/./a/";
   EXPECT_EQ(labels({a, b})[0], "Smoke, Proposed, seed 1 (runs/a)");
   EXPECT_EQ(labels({a, a})[0], "Smoke, Proposed, seed 1 (runs/a)");
   b.scenario.planner.cloud.leaf_m = 0.07;
-  EXPECT_EQ(labels({a, b, c}), (Labels{"Smoke, Proposed, leaf_m=0.05",
-                                       "Smoke, Proposed, leaf_m=0.07", "Smoke, Bircher"}));
+  EXPECT_EQ(labels({a, b, c}), (Names{"Smoke, Proposed, leaf_m=0.05",
+                                      "Smoke, Proposed, leaf_m=0.07", "Smoke, Bircher"}));
 }
 
 /// The utility has a column of its own in tables.
@@ -99,15 +98,9 @@ TEST(RunGroups, SettingsAreWhatDiffersBesideTheUtility) {
     std::vector<std::string> notes;
     return setting_labels(group_runs(runs, notes));
   };
-  EXPECT_EQ(settings(), (std::vector<std::string>(2)));
+  EXPECT_EQ(settings(), Names(2));
   runs[2].scenario.planner.preset = "released";
-  EXPECT_EQ(settings(), (std::vector<std::string>{"paper", "paper", "released"}));
-}
-
-std::vector<std::string> group_labels(const std::vector<RunRecord>& runs) {
-  std::vector<std::string> notes, labels;
-  for (const RunGroup& group : group_runs(runs, notes)) labels.push_back(group.label);
-  return labels;
+  EXPECT_EQ(settings(), (Names{"paper", "paper", "released"}));
 }
 
 /// A function of the user's own, once as it is asked and once as the views that it gave.
@@ -127,11 +120,10 @@ TEST(RunGroups, AFunctionOfTheUsersIsOneMethodWhateverViewsItGave) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     add(seed, kRouteName, {.kind = kPlanner, .file = "a.py", .function = "plan", .source = "p"});
   }
-  EXPECT_EQ(group_labels(runs), (std::vector<std::string>{"Proposed", "mine", "plan"}));
+  EXPECT_EQ(group_labels(runs), (Names{"Proposed", "mine", "plan"}));
   add(1, kUserUtilityName, {.label = "my own", .function = "mine", .source = "x"});
   add(1, kUserUtilityName, {.file = "b.py", .function = "mine", .source = "def mine(): 2"});
-  EXPECT_EQ(group_labels(runs),
-            (std::vector<std::string>{"Proposed", "a.py:mine", "plan", "my own", "b.py:mine"}));
+  EXPECT_EQ(group_labels(runs), (Names{"Proposed", "a.py:mine", "plan", "my own", "b.py:mine"}));
 }
 
 /// Grouping that compares all with all would take hours.
@@ -148,7 +140,6 @@ TEST(RunGroups, ThousandsOfConfigurationsAreGroupedAtOnce) {
 }
 
 TEST(RunNames, AreThoseOfTheFoldersHoweverTheirPathsAreWrittenAndUnique) {
-  using Names = std::vector<std::string>;
   const auto names = [](const std::vector<std::filesystem::path>& folders) {
     return run_names(folders);
   };
