@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "bench/score/effort_to_reach.hpp"
+#include "bench/score/run_figures.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 

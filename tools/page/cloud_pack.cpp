@@ -8,7 +8,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "bench/score/scored_points.hpp"
+#include "bench/score/cloud_metrics.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"

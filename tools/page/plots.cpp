@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include "tools/figures/coverage_levels.hpp"
-#include "tools/figures/drawn_groups.hpp"
 #include "tools/page/report.hpp"
 
 namespace gnbv {
