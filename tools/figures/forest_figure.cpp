@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/run/words.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

@@ -17,7 +17,6 @@
 #include "tools/page/run_pack.hpp"
 #include "tools/page/structures.hpp"
 #include "tools/run/run_files.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/looks.hpp"
 
 namespace gnbv {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "sim/core/text.hpp"
 #include "tools/render/panel_layout.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
 

@@ -9,6 +9,7 @@
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
@@ -17,7 +18,6 @@
 #include "tools/render/pictures.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {

@@ -5,8 +5,7 @@
 #include "sim/core/error.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run/plan_jsonl.hpp"
-#include "tools/run/predictions_csv.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_record.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
