@@ -26,9 +26,8 @@ std::map<std::string, std::string> read_hashes(const fs::path& path) {
   std::map<std::string, std::string> hashes;
   if (!fs::exists(path)) return hashes;
   try {
-    for (const Json& input : Json::parse(read_file(path)).at("inputs")) {
-      hashes[input.at("key")] = input.at("sha256");
-    }
+    const Json json = Json::parse(read_file(path));
+    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
   } catch (const Json::exception& error) {
     throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
   }
