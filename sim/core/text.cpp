@@ -40,6 +40,22 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", grouped(count), thing, count == 1 ? "" : "s");
+}
+
+std::string human_name(std::string_view name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  std::string words(name);
+  if (!is_plain || name.empty()) return words;
+  if (name == "aep") return "AEP";
+  std::replace(words.begin(), words.end(), '_', ' ');
+  words.front() = static_cast<char>(std::toupper(words.front()));
+  return words;
+}
+
 std::string grouped(std::size_t count) { return with_commas(std::to_string(count)); }
 
 std::string grouped(double value, int decimals) {
@@ -47,6 +63,17 @@ std::string grouped(double value, int decimals) {
   const bool is_zero = digits.find_first_of("123456789") == std::string::npos;
   return (value < 0.0 && !is_zero ? "-" : "") + with_commas(digits);
 }
+
+double rounded_up_125(double value) {
+  constexpr double kRounding = 1e-9;
+  const double power = std::pow(10.0, std::floor(std::log10(value) + kRounding));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (value <= (factor + kRounding) * power) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+double rounded_down_125(double value) { return 1.0 / rounded_up_125(1.0 / value); }
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {

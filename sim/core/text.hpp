@@ -12,11 +12,23 @@ namespace gnbv {
 /// "1 face repeats" or "3 faces repeat".
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
+/// "1 view", "12 views", "1,200 views".
+std::string counted(std::size_t count, std::string_view thing);
+
+/// Of a scenario, a utility or a preset: "Power plant" for "power_plant", "AEP" for "aep". What is
+/// no plain name of ours (lower case, digits, underscores), a file of the user's for one, stays.
+std::string human_name(std::string_view name);
+
 /// "1,234,567".
 std::string grouped(std::size_t count);
 
 /// With so many decimals: "10,970", "-1,234.5"; never "-0".
 std::string grouped(double value, int decimals);
+
+/// Where a scale of amounts may end: the least of 1, 2 or 5 times a power of ten that reaches the
+/// value, or the greatest that it reaches. Requires one above 0.
+double rounded_up_125(double value);
+double rounded_down_125(double value);
 
 /// Width of UTF-8 text on a terminal: its code points.
 std::size_t width_of(std::string_view text);

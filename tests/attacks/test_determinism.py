@@ -89,7 +89,8 @@ COMMANDS = {
     'score': 'score run --update --json',
     'ceiling': 'ceiling run --json',
     'surface': 'surface run --quiet -o out',
-    'export': 'export run --format colmap -o out',
+    **{form: f'export run --format {form} -o out'
+       for form in ('colmap', 'nerfstudio', 'plain', 'tum')},
     'report': 'report run --quiet -o page.html',
 }
 

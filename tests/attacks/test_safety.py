@@ -14,8 +14,8 @@ import math
 import random
 import shutil
 
-from map_files import nearest_surface, read_mesh, read_occupied, read_surface
-from program import summary
+from map_files import nearest_surface, read_mesh, read_points, read_surface
+from program import json_of, summary
 
 TRIES = 1000
 VIEWS = 8
@@ -138,20 +138,21 @@ planner:
 """
 
 
-STRAYED = "off its path, more than"  # tools/gnbv/margin_note.cpp
+STRAYED = "off its path, more than"  # tools/run/mission_result.cpp
 NOT_SHOWN = "what its map does not show"
 
 
-def touched(place):
+def touched(gnbv, place):
     """What the mission touched: the ground, or something that the map shows or does not."""
     p = tuple(map(float, (place / "out/trajectory.tum").read_text().split("\n")[-2].split()[1:4]))
     nearest = nearest_surface(read_mesh(place / "mesh.obj"), p)
     if p[2] < math.dist(p, nearest):
         return "the ground"
-    voxel_m, occupied = read_occupied(place / "out/map.bt")
-    key = tuple(math.floor(x / voxel_m) + 32768 for x in nearest)
-    is_shown = any((key[0] + x, key[1] + y, key[2] + z) in occupied
-                   for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1))
+    gnbv("export", "out", "--format", "plain", "-o", "map", "--quiet").check({0})
+    voxel_m = json_of(place / "map/map.json")["voxel_m"]
+    low = [voxel_m * (math.floor(x / voxel_m) - 1) for x in nearest]  # its voxel and those around
+    is_shown = any(all(0 < x - least < 3 * voxel_m for x, least in zip(centre, low))
+                   for centre in read_points(place / "map/voxels.ply"))
     return "what its map shows" if is_shown else NOT_SHOWN
 
 
@@ -166,7 +167,7 @@ def check_views(place, radius_m):
         assert nearest_m >= radius_m - 1e-6, f"view {row[key['iteration']]}"
 
 
-def check_flight(place, scenario, end):
+def check_flight(gnbv, place, scenario, end):
     """How it ended."""
     flown = summary(place / "out")
     if flown is None:
@@ -174,7 +175,7 @@ def check_flight(place, scenario, end):
         return "refused: " + end.err.split("\n")[-2].split(": value")[0].split(": ")[-1][:40]
     end.check({0, 1})
     if flown["termination"] == "collision" or flown.get("collisions", 0):
-        what = touched(place)
+        what = touched(gnbv, place)
         if what == "the ground" and STRAYED in end.err:
             return "touched the ground, having strayed"
         assert what == NOT_SHOWN
@@ -190,7 +191,7 @@ def test_touches_nothing_that_its_map_shows(gnbv, tmp_path, request, views, coun
     (tmp_path / "scenario.yaml").write_text(scenario)
     end = gnbv("run", "scenario.yaml", "--threads", "1", "--out", "out")
     try:
-        count(check_flight(tmp_path, scenario, end))
+        count(check_flight(gnbv, tmp_path, scenario, end))
     except AssertionError:
         if keep := request.config.option.keep:
             shutil.copytree(tmp_path, keep / f"{attempt}-{utility}", dirs_exist_ok=True)

@@ -13,8 +13,8 @@
 #include "tests/support/watch.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/run/plan_jsonl.hpp"
 #include "tools/run/run_record.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,6 +1,8 @@
 """`gnbv fly` beside the clients that fly it, and a run to be read. GNBV names the program."""
 
+import asyncio
 import json
+import math
 import os
 import re
 import signal
@@ -41,6 +43,22 @@ def export(run):
         return Path(done.stdout.strip())
 
     return written
+
+
+async def first(stream, holds=lambda value: True, timeout_s=60.0):
+    async def wait():
+        async for value in stream:
+            if holds(value):
+                return value
+        raise AssertionError("the stream ended")
+
+    return await asyncio.wait_for(wait(), timeout_s)
+
+
+def is_at(north_m: float, east_m: float, down_m: float):
+    """Whether a position and velocity of MAVSDK's are there."""
+    return lambda m: math.dist(
+        (m.position.north_m, m.position.east_m, m.position.down_m), (north_m, east_m, down_m)) < 0.4
 
 
 class Vehicle:

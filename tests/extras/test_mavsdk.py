@@ -5,6 +5,7 @@ import math
 import socket
 
 import pytest
+from conftest import first, is_at
 
 mavsdk = pytest.importorskip("mavsdk.asyncio", reason="needs mavsdk >= 4")
 from mavsdk import ComponentType, Configuration  # noqa: E402
@@ -19,24 +20,6 @@ from mavsdk.plugins.offboard import (  # noqa: E402
     VelocityNedYaw,
 )
 from mavsdk.plugins.telemetry import LandedState  # noqa: E402
-
-
-async def first(stream, holds=lambda value: True, timeout_s=60.0):
-    async def wait():
-        async for value in stream:
-            if holds(value):
-                return value
-        raise AssertionError("the stream ended")
-
-    return await asyncio.wait_for(wait(), timeout_s)
-
-
-async def reach(telemetry, north_m, east_m, down_m):
-    def is_there(m):
-        p = m.position
-        return math.dist((p.north_m, p.east_m, p.down_m), (north_m, east_m, down_m)) < 0.4
-
-    return await first(telemetry.subscribe_position_velocity_ned(), is_there)
 
 
 async def fly_square(system):
@@ -65,7 +48,8 @@ async def fly_square(system):
     assert await offboard.is_active()
     for n, e in ((5, 0), (5, 5), (0, 5), (0, 0)):
         await offboard.set_position_ned(PositionNedYaw(north + n, east + e, -3.0, 0.0))
-        print("corner", (await reach(telemetry, north + n, east + e, -3.0)).position)
+        print("corner", await first(telemetry.subscribe_position_velocity_ned(),
+                                    is_at(north + n, east + e, -3.0)))
     for n, e in ((1, 0), (0, 1), (-1, 0), (0, -1)):
         await offboard.set_velocity_ned(VelocityNedYaw(n, e, 0.0, 0.0))
         velocity = await first(telemetry.subscribe_velocity_ned(), lambda v, wanted=(n, e):
@@ -75,7 +59,7 @@ async def fly_square(system):
     await first(telemetry.subscribe_attitude_euler(), lambda a: abs(a.yaw_deg) > 90)
     await offboard.set_position_ned(PositionNedYaw(north + 3, east + 3, -3.0, 90.0))
     await first(telemetry.subscribe_attitude_euler(), lambda a: abs(a.yaw_deg - 90) < 5)
-    await reach(telemetry, north + 3, east + 3, -3.0)
+    await first(telemetry.subscribe_position_velocity_ned(), is_at(north + 3, east + 3, -3.0))
     await offboard.stop()
 
     await action.return_to_launch()

@@ -2,31 +2,12 @@
 since): it brings the server that flies the vehicle."""
 
 import asyncio
-import math
 
 import pytest
-from conftest import free_port
+from conftest import first, free_port, is_at
 
 mavsdk = pytest.importorskip("mavsdk_grpc")
 from mavsdk_grpc.offboard import PositionNedYaw, VelocityNedYaw  # noqa: E402
-
-
-async def first(stream, holds=lambda value: True, timeout_s=60.0):
-    async def wait():
-        async for value in stream:
-            if holds(value):
-                return value
-        raise AssertionError("the stream ended")
-
-    return await asyncio.wait_for(wait(), timeout_s)
-
-
-async def reach(drone, north_m, east_m, down_m):
-    def is_there(m):
-        p = m.position
-        return math.dist((p.north_m, p.east_m, p.down_m), (north_m, east_m, down_m)) < 0.4
-
-    return await first(drone.telemetry.position_velocity_ned(), is_there)
 
 
 async def fly_there_and_back(url):
@@ -46,7 +27,7 @@ async def fly_there_and_back(url):
     await drone.offboard.start()
     goal = start.north_m + 3.0, start.east_m, -2.0
     await drone.offboard.set_position_ned(PositionNedYaw(*goal, 90.0))
-    print(await reach(drone, *goal))
+    print(await first(drone.telemetry.position_velocity_ned(), is_at(*goal)))
     await drone.offboard.set_velocity_ned(VelocityNedYaw(-1.0, 0.0, 0.0, 90.0))
     await first(drone.telemetry.position_velocity_ned(),
                 lambda m: m.position.north_m < start.north_m + 0.5)

@@ -3,6 +3,7 @@ the run's own files."""
 
 import csv
 import os
+import shutil
 import subprocess
 
 import numpy as np
@@ -87,6 +88,16 @@ def test_without_frames_the_frusta_are_there_all_the_same(tmp_path):
     done = gnbv("export", folder, "--format", "rerun")
     assert done.returncode == 0, done.stderr
     assert f"{len(rows(folder / 'iterations.csv'))} frusta, 0 colour, 0 depth" in done.stderr
+
+
+def test_a_run_that_goes_on_is_its_journal_and_not_its_earlier_end(run, tmp_path):
+    folder = shutil.copytree(run, tmp_path / "goes_on")
+    views = (folder / "iterations.csv").read_text().splitlines(keepends=True)
+    (folder / "iterations.csv.part").write_text("".join(views))
+    (folder / "iterations.csv").write_text("".join(views[:-1]))
+    done = gnbv("export", folder, "--format", "rerun")
+    assert done.returncode == 0, done.stderr
+    assert " 0 poses, 0 points, 5 plots, " in done.stderr, done.stderr
 
 
 def test_a_python_without_the_package_is_one_clear_line(run, tmp_path):

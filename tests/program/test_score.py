@@ -122,10 +122,6 @@ def test_lines_fit_the_terminal(run, cache, copy):
     assert all(len(line) <= 80 for line in said.splitlines())
 
 
-def without_last_row(text):
-    return text[:text.rindex('\n', 0, -1) + 1]
-
-
 def test_the_curve_goes_from_the_profile_to_the_end_and_never_falls(flown):
     found = summary(flown)
     rows = [line.split(',')[1:] for line in (flown / 'coverage.csv').read_text().splitlines()[1:]]

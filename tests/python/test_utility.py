@@ -1,6 +1,5 @@
 """A utility in five lines."""
 
-import hashlib
 import subprocess
 import sys
 from collections import Counter
@@ -9,7 +8,7 @@ import numpy as np
 import pytest
 
 import gnbv
-from gnbv._program import PROGRAM, call, environment
+from gnbv._program import call, environment
 
 
 def mine(views):
@@ -25,18 +24,7 @@ def test_a_function_flies_and_is_recorded(short):
     run = gnbv.run("smoke", utility=mine, seed=2, set=short)
     assert run.summary["utility"] == "mine"
     assert run.utility_source is not None and run.utility_source.startswith("def mine(views):")
-    digest = hashlib.sha256(run.utility_source.encode()).hexdigest()
-    assert run.summary["utility_source_sha256"] == digest
-    chosen = run.iterations[1:]
-    assert (chosen["utility"] > 0).all()
-    # the run repeats from what it recorded, by the program alone
-    again = subprocess.run(
-        [PROGRAM, "run", run.folder / "scenario.yaml", "--quiet", "--out", "again"],
-        env=environment(),
-        check=False,
-    )
-    assert again.returncode == 0
-    assert gnbv.load("again").sha256 == run.sha256
+    assert (run.iterations["utility"][1:] > 0).all()
 
 
 def test_bircher_in_numpy_decides_as_bircher(short):
@@ -62,28 +50,10 @@ def test_only_fields_that_the_source_names_are_computed(short):
         gnbv.run("smoke", utility=by_another_name, set=short)
 
 
-def late_nan(views):
-    scores = views["unknown_voxels"].astype(float)
-    late_nan.calls = getattr(late_nan, "calls", 0) + 1
-    if late_nan.calls == 3:
-        scores[2] = float("nan")
-    return scores
-
-
-def test_nan_ends_the_run_with_iteration_candidate_and_a_complete_record(short):
-    with pytest.raises(gnbv.UtilityFailed, match="returned nan") as failed:
-        gnbv.run("smoke", utility=late_nan, set=short)
-    assert failed.value.iteration == 3
-    assert failed.value.candidate is not None and failed.value.candidate >= 2
-    run = gnbv.load(failed.value.folder)
-    assert run.termination == "utility_failed"
-    assert len(run.iterations) == 3 and len(run.cloud) > 0
-    assert "returned nan" in run.summary["failure"]
-
-
-def test_what_raises_shows_its_traceback(short):
+def test_what_raises_ends_the_run_with_its_place_and_a_complete_record(short):
     def raises(views):
-        if (views["path_m"] > 0.9).any():
+        raises.calls = getattr(raises, "calls", 0) + 1
+        if raises.calls == 3:
             raise ValueError("too far")
         return views["path_m"]
 
@@ -91,48 +61,11 @@ def test_what_raises_shows_its_traceback(short):
         gnbv.run("smoke", utility=raises, set=short)
     assert "ValueError: too far" in failed.value.traceback
     assert 'raise ValueError("too far")' in failed.value.traceback
-    assert failed.value.candidate is not None
-
-
-@pytest.mark.parametrize("returned", ["1.0", "views['path_m'][:-1]", "'many'", "None", "[[1.0]]"])
-def test_what_is_no_score_a_row_ends_the_run(returned, short, tmp_path):
-    file = tmp_path / "bad.py"
-    file.write_text(f"def bad(views):\n    return {returned}\n")
-    said = subprocess.run(
-        [PROGRAM, "run", "smoke", "--quiet", "--utility", file],
-        env=environment(),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert said.returncode == 1, said.stderr
-    assert "gnbv: utility bad: iteration 1" in said.stderr
-
-
-@pytest.mark.parametrize(
-    ("text", "what"),
-    [
-        ("x = 1", "defines no function"),
-        ("def f(v:\n  return v", "SyntaxError"),
-        ("import nosuchmodule\ndef f(v): return v", "nosuchmodule"),
-    ],
-)
-def test_a_file_that_cannot_be_used_is_refused_before_anything_is_written(text, what, tmp_path):
-    file = tmp_path / "u.py"
-    file.write_text(text)
-    with pytest.raises(gnbv.BadInput, match=what):
-        gnbv.run("smoke", utility=file, out="r")
-    assert not (tmp_path / "r").exists()
-
-
-def test_a_dead_python_is_one_line(short, tmp_path):
-    def dies(views):
-        import os
-
-        os._exit(7)
-
-    with pytest.raises(gnbv.UtilityFailed, match=r"iteration 1: its Python ended \(exit code 7\)"):
-        gnbv.run("smoke", utility=dies, set=short)
+    assert failed.value.iteration == 3 and failed.value.candidate is not None
+    run = gnbv.load(failed.value.folder)
+    assert run.termination == "utility_failed"
+    assert len(run.iterations) == 3 and len(run.cloud) > 0
+    assert "too far" in run.summary["failure"]
 
 
 def test_free_variables_and_lambdas_are_refused():
@@ -241,11 +174,3 @@ def test_a_failure_that_speaks_of_interruptions_is_a_failure(tmp_path, monkeypat
     monkeypatch.setattr("gnbv._program.PROGRAM", program)
     with pytest.raises(gnbv.Failed, match="ended by interrupted"):
         call("table")
-
-
-def test_of_several_functions_in_a_file_one_is_named(tmp_path):
-    file = tmp_path / "two.py"
-    file.write_text("def one(views): return views\ndef two(views): return views\n")
-    with pytest.raises(gnbv.BadInput, match=r"defines several functions \(one, two\)"):
-        gnbv.run("smoke", utility=file, out="r")
-    assert not (tmp_path / "r").exists()

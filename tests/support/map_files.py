@@ -36,31 +36,9 @@ def read_surface(path):
     return surface
 
 
-def read_occupied(path):
-    """(voxel in metres, keys of the occupied voxels) of a map.bt, pruned cubes as their voxels."""
-    with open(path, "rb") as file:
-        data = file.read()
-    head, _, tree = data.partition(b"data\n")
-    voxel_m = float(head.split(b"\nres ")[1].split()[0])
-    occupied, at = set(), 0
-
-    def children(first, level):
-        nonlocal at
-        states = [(tree[at + i // 4] >> (2 * (i % 4))) & 3 for i in range(8)]
-        at += 2
-        corners = [tuple(first[a] + ((i >> a & 1) << level) for a in range(3)) for i in range(8)]
-        for corner, state in zip(corners, states):
-            if state == 2:
-                occupied.update((corner[0] + x, corner[1] + y, corner[2] + z)
-                                for x in range(1 << level) for y in range(1 << level)
-                                for z in range(1 << level))
-        for corner, state in zip(corners, states):
-            if state == 3:
-                children(corner, level - 1)
-
-    if tree:
-        children((0, 0, 0), 15)
-    return voxel_m, occupied
+def read_points(path):
+    """Vertices of a PLY file of three floats each."""
+    return struct.iter_unpack("<3f", path.read_bytes().partition(b"end_header\n")[2])
 
 
 def read_mesh(path):

@@ -1,5 +1,3 @@
-#include "tools/exports/colmap.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -8,6 +6,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
+#include "tools/exports/formats.hpp"
 
 namespace gnbv {
 namespace {
@@ -36,7 +35,7 @@ The database numbers images and camera folders as this model does; with one came
 --ImageReader.camera_params and its line of cameras.txt, so that the matcher knows it, too.
 )";
 
-std::string image_name(const FrameRecord& frames, const RecordedFrame& frame) {
+std::string image_path(const FrameRecord& frames, const RecordedFrame& frame) {
   return fmt::format("{}/{}.png", file_word(frames.cameras[frame.camera]), frame_number(frame));
 }
 
@@ -45,26 +44,25 @@ std::vector<std::size_t> frames_by_name(const FrameRecord& frames) {
   std::vector<std::size_t> order(frames.frames.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return image_name(frames, frames.frames[a]) < image_name(frames, frames.frames[b]);
+    return image_path(frames, frames.frames[a]) < image_path(frames, frames.frames[b]);
   });
   return order;
 }
 
 /// Of each camera, from 1: in the order in which the names of its images come, which is that in
 /// which COLMAP's programs meet the folders. The slash counts: "rgbd-down/" comes before "rgbd/".
-std::vector<std::size_t> camera_ids(const FrameRecord& frames) {
+std::vector<std::ptrdiff_t> camera_ids(const FrameRecord& frames) {
   std::vector<std::string> folders;
   for (const FrameCamera& camera : frames.cameras) folders.push_back(file_word(camera) + "/");
-  std::vector<std::size_t> ids;
+  std::vector<std::ptrdiff_t> ids;
   for (const std::string& folder : folders) {
-    ids.push_back(
-        1 + static_cast<std::size_t>(std::count_if(
-                folders.begin(), folders.end(), [&](const std::string& f) { return f < folder; })));
+    const auto is_before = [&](const std::string& other) { return other < folder; };
+    ids.push_back(1 + std::ranges::count_if(folders, is_before));
   }
   return ids;
 }
 
-std::string cameras_text(const FrameRecord& frames, const std::vector<std::size_t>& ids) {
+std::string cameras_text(const FrameRecord& frames, const std::vector<std::ptrdiff_t>& ids) {
   std::string text = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]: fx, fy, cx, cy\n";
   for (std::size_t i = 0; i < frames.cameras.size(); ++i) {
     const FrameCamera& c = frames.cameras[i];
@@ -76,7 +74,7 @@ std::string cameras_text(const FrameRecord& frames, const std::vector<std::size_
 
 std::string images_text(const FrameRecord& frames, const SparseModel& model,
                         const std::vector<std::size_t>& order,
-                        const std::vector<std::size_t>& ids) {
+                        const std::vector<std::ptrdiff_t>& ids) {
   std::string text =
       "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n# POINTS2D[]: X, Y, POINT3D_ID\n";
   auto out = std::back_inserter(text);
@@ -86,7 +84,7 @@ std::string images_text(const FrameRecord& frames, const SparseModel& model,
     const Eigen::Quaterniond q(T_camera_world.linear());
     const Vec3 t = T_camera_world.translation();
     fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {}\n", i + 1, q.w(), q.x(), q.y(), q.z(), t.x(),
-                   t.y(), t.z(), ids[frame.camera], image_name(frames, frame));
+                   t.y(), t.z(), ids[frame.camera], image_path(frames, frame));
     const char* separator = "";
     for (const Observation& o : model.observations[order[i]]) {
       fmt::format_to(out, "{}{:.2f} {:.2f} {}", separator, o.u_px, o.v_px, o.point + 1);
@@ -121,7 +119,7 @@ std::string points_text(const SparseModel& model, const std::vector<std::size_t>
 
 void write_colmap(const FrameRecord& frames, const SparseModel& model, const fs::path& folder) {
   const std::vector<std::size_t> order = frames_by_name(frames);
-  const std::vector<std::size_t> ids = camera_ids(frames);
+  const std::vector<std::ptrdiff_t> ids = camera_ids(frames);
   const fs::path sparse = folder / "sparse" / "0";
   fs::create_directories(sparse);
   write_file_atomically(sparse / "cameras.txt", cameras_text(frames, ids));
@@ -129,7 +127,7 @@ void write_colmap(const FrameRecord& frames, const SparseModel& model, const fs:
   write_file_atomically(sparse / "points3D.txt", points_text(model, order));
   write_file_atomically(folder / "README.txt", kColmapReadme);
   for (const RecordedFrame& frame : frames.frames) {
-    link_or_copy(frame.colour, folder / "images" / image_name(frames, frame));
+    link_or_copy(frame.colour, folder / "images" / image_path(frames, frame));
   }
 }
 

@@ -1,7 +1,5 @@
 #include "tools/exports/export_folder.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -55,16 +53,12 @@ void need_place_for(const fs::path& folder) {
   }
   const std::vector<std::string> there = files_in(folder);
   std::vector<std::string> foreign;
-  std::set_difference(there.begin(), there.end(), own->begin(), own->end(),
-                      std::back_inserter(foreign));
+  std::ranges::set_difference(there, *own, std::back_inserter(foreign));
   if (foreign.empty()) return;
-  throw BadInput(fmt::format(
-      "{}: holds files that no export wrote ({} in all): {}{}: remove them, or let -o "
-      "name another folder",
-      folder.string(), foreign.size(),
-      fmt::join(foreign.begin(), foreign.begin() + std::min<std::ptrdiff_t>(3, std::ssize(foreign)),
-                ", "),
-      foreign.size() > 3 ? ", ..." : ""));
+  throw BadInput(
+      fmt::format("{}: holds files that no export wrote, {} for one ({} in all): remove them, or "
+                  "let -o name another folder",
+                  folder.string(), foreign.front(), foreign.size()));
 }
 
 std::string marker_text(const RunRecord& record, std::string_view format,
@@ -171,6 +165,18 @@ std::string file_word(const FrameCamera& camera) {
   throw BadInput(fmt::format(
       "cameras.json: camera '{}' cannot name files: only letters, digits, '.', '_' and '-' can",
       camera.name));
+}
+
+std::string image_name(const FrameRecord& frames, const RecordedFrame& frame) {
+  return fmt::format("{}_{}.png", frame_number(frame), file_word(frames.cameras[frame.camera]));
+}
+
+void link_images(const FrameRecord& frames, const fs::path& folder) {
+  for (const RecordedFrame& frame : frames.frames) {
+    const std::string name = image_name(frames, frame);
+    link_or_copy(frame.colour, folder / "images" / name);
+    link_or_copy(frame.depth, folder / "depth" / name);
+  }
 }
 
 }  // namespace gnbv

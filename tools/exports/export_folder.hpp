@@ -32,4 +32,10 @@ std::string frame_number(const RecordedFrame& frame);
 /// The camera's name as part of file names. Throws BadInput when it cannot be one.
 std::string file_word(const FrameCamera& camera);
 
+/// "000007_rgbd.png": of a frame's images, where one folder holds those of all cameras.
+std::string image_name(const FrameRecord& frames, const RecordedFrame& frame);
+
+/// Links them into images/ and depth/ of the folder.
+void link_images(const FrameRecord& frames, const std::filesystem::path& folder);
+
 }  // namespace gnbv

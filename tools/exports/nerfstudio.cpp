@@ -1,10 +1,9 @@
-#include "tools/exports/nerfstudio.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
+#include "tools/exports/formats.hpp"
 #include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
@@ -61,7 +60,7 @@ void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const
   json["frames"] = Json::array();
   for (const RecordedFrame& frame : frames.frames) {
     const FrameCamera& c = frames.cameras[frame.camera];
-    const std::string name = fmt::format("{}_{}.png", frame_number(frame), file_word(c));
+    const std::string name = image_name(frames, frame);
     json["frames"].push_back(
         {{"file_path", "images/" + name},
          {"depth_file_path", "depth/" + name},
@@ -72,9 +71,8 @@ void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const
          {"cx", c.cx_px},
          {"cy", c.cy_px},
          {"transform_matrix", matrix_rows(opengl_pose(frame.T_world_camera), 4)}});
-    link_or_copy(frame.colour, folder / "images" / name);
-    link_or_copy(frame.depth, folder / "depth" / name);
   }
+  link_images(frames, folder);
   write_cloud_ply(model.points_world_m, folder / "points.ply", {.colours = model.colours});
   write_file_atomically(folder / "transforms.json", json.dump(1) + "\n");
   write_file_atomically(folder / "README.txt", kNerfstudioReadme);

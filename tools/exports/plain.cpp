@@ -1,6 +1,4 @@
-#include "tools/exports/plain.hpp"
-
-#include <iterator>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -9,10 +7,10 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
+#include "tools/exports/formats.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/run_files.hpp"
-#include "tools/run/run_record.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -71,28 +69,21 @@ std::string trajectory_text(const RunRecord& record) {
   return text;
 }
 
-std::string image_name(const FrameCamera& camera, const RecordedFrame& frame) {
-  return fmt::format("{}_{}.png", frame_number(frame), file_word(camera));
-}
-
 /// The frame of a view and camera; null when none was kept.
-const RecordedFrame* find_frame(const PlainParts& parts, int iteration, const std::string& camera) {
-  if (!parts.frames) return nullptr;
-  for (const RecordedFrame& frame : parts.frames->frames) {
-    if (frame.iteration == iteration && parts.frames->cameras[frame.camera].name == camera) {
-      return &frame;
-    }
-  }
-  return nullptr;
+const RecordedFrame* find_frame(const FrameRecord& frames, int iteration,
+                                const std::string& camera) {
+  const auto found = std::ranges::find_if(frames.frames, [&](const RecordedFrame& frame) {
+    return frame.iteration == iteration && frames.cameras[frame.camera].name == camera;
+  });
+  return found == frames.frames.end() ? nullptr : &*found;
 }
 
-std::string view_row(const ViewRecord& view, const CameraModel& camera,
-                     const RecordedFrame* frame) {
+std::string view_row(const ViewRecord& view, const CameraModel& camera, const FrameRecord& frames) {
+  const RecordedFrame* const frame = find_frame(frames, view.iteration, camera.config.name);
   const Isometry T_world_camera = frame != nullptr
                                       ? frame->T_world_camera
                                       : T_world_body(view.decision.view) * camera.T_body_camera;
-  const std::string name =
-      frame != nullptr ? fmt::format("{}_{}.png", frame_number(*frame), camera.config.name) : "";
+  const std::string name = frame != nullptr ? image_name(frames, *frame) : "";
   return fmt::format("{},{},{},{},{},{},{},{}\n", view.iteration, camera.config.name,
                      frame != nullptr ? "believed" : "planned",
                      pose_text(T_world_camera * camera.T_body_camera.inverse(), ','),
@@ -100,29 +91,20 @@ std::string view_row(const ViewRecord& view, const CameraModel& camera,
                      name.empty() ? "" : "images/" + name, name.empty() ? "" : "depth/" + name);
 }
 
-std::string views_text(const RunRecord& record, const PlainParts& parts) {
+std::string views_text(const RunRecord& record, const FrameRecord& frames) {
   std::string text = fmt::format("iteration,camera,pose,{},{},{},image,depth\n",
                                  pose_header("body"), pose_header("camera"), decision_header());
   for (const ViewRecord& view : record.views) {
     for (const CameraConfig& config : record.scenario.cameras) {
       const CameraModel camera =
           turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
-      text += view_row(view, camera, find_frame(parts, view.iteration, config.name));
+      text += view_row(view, camera, frames);
     }
   }
   return text;
 }
 
-/// Of the camera's images; nothing when none were kept.
-std::optional<double> depth_scale_m(const PlainParts& parts, const std::string& camera) {
-  if (!parts.frames) return std::nullopt;
-  for (const FrameCamera& c : parts.frames->cameras) {
-    if (c.name == camera) return c.depth_scale_m;
-  }
-  return std::nullopt;
-}
-
-std::string intrinsics_text(const RunRecord& record, const PlainParts& parts) {
+std::string intrinsics_text(const RunRecord& record, const FrameRecord& frames) {
   Json cameras = Json::array();
   for (const CameraConfig& config : record.scenario.cameras) {
     const CameraModel camera = make_camera_model(config);
@@ -142,18 +124,10 @@ std::string intrinsics_text(const RunRecord& record, const PlainParts& parts) {
                        {"range_min_m", config.range_min_m},
                        {"range_max_m", config.range_max_m},
                        {"T_body_camera", T_body_camera}});
-    const auto scale_m = depth_scale_m(parts, config.name);
-    if (scale_m) cameras.back()["depth_scale_m"] = *scale_m;
+    const auto seen = std::ranges::find(frames.cameras, config.name, &FrameCamera::name);
+    if (seen != frames.cameras.end()) cameras.back()["depth_scale_m"] = seen->depth_scale_m;
   }
   return Json{{"cameras", cameras}}.dump(2) + "\n";
-}
-
-void link_images(const FrameRecord& frames, const fs::path& folder) {
-  for (const RecordedFrame& frame : frames.frames) {
-    const std::string name = image_name(frames.cameras[frame.camera], frame);
-    link_or_copy(frame.colour, folder / "images" / name);
-    link_or_copy(frame.depth, folder / "depth" / name);
-  }
 }
 
 void write_cloud(const RunCloud& cloud, const std::vector<Rgb8>& colours, const fs::path& path) {
@@ -195,14 +169,16 @@ void write_map(const fs::path& octomap, const RunRecord& record, const fs::path&
 
 }  // namespace
 
-void write_plain(const RunRecord& record, const PlainParts& parts, const fs::path& folder) {
+void write_plain(const RunRecord& record, const ExportParts& parts, const fs::path& folder) {
+  const FrameRecord frames = parts.frames.value_or(FrameRecord{});
   if (!record.path.empty())
     write_file_atomically(folder / "trajectory.csv", trajectory_text(record));
-  if (!record.views.empty()) write_file_atomically(folder / "views.csv", views_text(record, parts));
-  write_file_atomically(folder / "intrinsics.json", intrinsics_text(record, parts));
+  if (!record.views.empty())
+    write_file_atomically(folder / "views.csv", views_text(record, frames));
+  write_file_atomically(folder / "intrinsics.json", intrinsics_text(record, frames));
   write_file_atomically(folder / kScenarioFile, to_yaml(record.scenario));
   write_file_atomically(folder / "README.txt", kPlainReadme);
-  if (parts.frames) link_images(*parts.frames, folder);
+  link_images(frames, folder);
   if (parts.cloud) write_cloud(*parts.cloud, parts.colours, folder / kCloudFile);
   if (const auto map = RunFiles(record.folder).find(kMapOddsFile)) write_map(*map, record, folder);
 }

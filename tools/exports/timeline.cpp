@@ -1,5 +1,3 @@
-#include "tools/exports/timeline.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +6,10 @@
 
 #include "sensors/camera_model.hpp"
 #include "sim/core/embed.hpp"
-#include "sim/mesh/mesh_file.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/image.hpp"
+#include "tools/exports/formats.hpp"
 #include "tools/mission/python_script.hpp"
-#include "tools/run/file_names.hpp"
-#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 namespace {
@@ -23,12 +21,11 @@ GNBV_EMBED(recorded_run_py, GNBV_TIMELINE_FOLDER "/recorded_run.py");
 GNBV_EMBED(to_rerun_py, GNBV_TIMELINE_FOLDER "/to_rerun.py");
 GNBV_EMBED(to_mcap_py, GNBV_TIMELINE_FOLDER "/to_mcap.py");
 
-/// View, time, place and attitude of the optical frame, names of the images.
-Json frame_json(int view, double time_s, const Isometry& T_world_camera,
-                const std::string& colour = {}, const std::string& depth = {}) {
-  const Vec3 p = T_world_camera.translation();
-  const Eigen::Quaterniond q(T_world_camera.linear());
-  return {view, time_s, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), colour, depth};
+/// Time, place and attitude: x y z qx qy qz qw.
+Json pose_row(double time_s, const Isometry& T) {
+  const Vec3 p = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return {time_s, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
 template <typename Camera>
@@ -40,18 +37,15 @@ Json camera_json(const Camera& camera, const std::string& name, int width_px, in
 }
 
 Json cameras_of_frames(const FrameRecord& record) {
+  std::vector<Json> frames(record.cameras.size(), Json::array());
+  for (const RecordedFrame& f : record.frames) {
+    frames[f.camera].push_back({f.iteration, pose_row(f.time_s, f.T_world_camera),
+                                fs::absolute(f.colour).string(), fs::absolute(f.depth).string()});
+  }
   Json cameras = Json::array();
-  for (std::size_t i = 0; i < record.cameras.size(); ++i) {
-    const FrameCamera& camera = record.cameras[i];
-    Json frames = Json::array();
-    for (const RecordedFrame& frame : record.frames) {
-      if (frame.camera != i) continue;
-      frames.push_back(frame_json(frame.iteration, frame.time_s, frame.T_world_camera,
-                                  frame.colour.filename().string(),
-                                  frame.depth.filename().string()));
-    }
-    cameras.push_back(
-        camera_json(camera, camera.name, camera.width_px, camera.height_px, std::move(frames)));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameCamera& c = record.cameras[i];
+    cameras.push_back(camera_json(c, c.name, c.width_px, c.height_px, std::move(frames[i])));
   }
   return cameras;
 }
@@ -66,8 +60,8 @@ Json cameras_of_views(const RunRecord& record) {
       const std::optional<Isometry> T_world_body = true_pose_at(record, view.time_s);
       if (!T_world_body) continue;
       const CameraModel at_view = turned(camera, view.decision.view.gimbal_pitch_rad);
-      frames.push_back(
-          frame_json(view.iteration, view.time_s, *T_world_body * at_view.T_body_camera));
+      const Isometry T_world_camera = *T_world_body * at_view.T_body_camera;
+      frames.push_back({view.iteration, pose_row(view.time_s, T_world_camera), nullptr, nullptr});
     }
     cameras.push_back(
         camera_json(camera, config.name, config.width_px, config.height_px, std::move(frames)));
@@ -92,31 +86,79 @@ Json growth_of(const RunRecord& record, const std::optional<RunCloud>& cloud) {
   return growth;
 }
 
-std::string words_of(const Json& written) {
-  std::string words;
-  for (const auto& [kind, count] : written.items()) {
-    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count.get<std::int64_t>(), kind);
+/// Times and values by name: of each view, and coverage of the profile, too.
+Json plots_of(const RunRecord& record) {
+  Json plots = Json::object();
+  if (record.views.empty()) return plots;
+  const auto add = [&](const std::string& name, double time_s, double value) {
+    plots[name].push_back({time_s, value});
+  };
+  for (const ViewRecord& view : record.views) {
+    add("utility", view.time_s, view.decision.score.value);
+    add("entropy_nat", view.time_s, view.entropy_nat);
+    add("density_points_per_voxel", view.time_s, view.density_points_per_voxel);
+    add("cloud_points", view.time_s, static_cast<double>(view.cloud_points));
+    add("flown_m", view.time_s, view.flown_m);
   }
-  return words;
+  if (!record.figures) return plots;
+  const CoverageCurve& curve = record.figures->curve;
+  for (std::size_t i = 0; i < curve.seconds.size(); ++i) {
+    // the curve's seconds count from the end of the profile, entry 0; entry 1 is the first view's
+    const double time_s = record.views[0].time_s - curve.seconds[1] + curve.seconds[i];
+    for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+      add("coverage/" + size_name(kCoverageSizes_m[size]), time_s, curve.coverage[i][size]);
+    }
+    for (const SizedCoverage& at : record.figures->more) {
+      add("coverage/" + size_name(at.size_m), time_s, at.curve[i]);
+    }
+  }
+  return plots;
+}
+
+/// Rows of numbers as they lie in memory, in a file that is only handed over: its path.
+template <typename Row>
+Json handed_over(const std::vector<Row>& rows, const fs::path& file) {
+  write_file_atomically(file,
+                        {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)},
+                        Lasting::the_process);
+  return fs::absolute(file).string();
+}
+
+Json structure_of(const TriangleMesh& mesh, const fs::path& folder) {
+  std::vector<Rgb8> colours;
+  for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+    const auto& [r, g, b] = mesh.materials[material_of(mesh, face)].rgb;
+    colours.push_back({srgb_byte(r), srgb_byte(g), srgb_byte(b)});
+  }
+  return {{"vertices", handed_over(mesh.vertices_m, folder / "vertices")},
+          {"triangles", handed_over(mesh.faces, folder / "triangles")},
+          {"colours", handed_over(colours, folder / "colours")}};
 }
 
 }  // namespace
 
-std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
+std::string write_timeline(const RunRecord& record, const ExportParts& parts,
                            std::string_view format, const fs::path& folder) {
-  const fs::path structure = folder / "structure.ply";  // only handed over
-  if (parts.structure) write_mesh(*parts.structure, structure);
+  const bool is_rerun = format == "rerun";
+  const fs::path handed = folder / "handed_over";
+  fs::create_directory(handed);
+  const auto points = parts.cloud ? parts.cloud->points_world_m : std::vector<Vec3f>{};
+  Json trajectory = Json::array();
+  for (const TrajectorySample& sample : record.path) {
+    trajectory.push_back(pose_row(sample.time_s, sample.T_world_body));
+  }
   const std::string id = record.figures ? record.figures->result_sha256.substr(0, 32) : "";
   const Json scene = {
       {"format", format},
       {"name", run_title(record)},
       {"id", id.empty() ? record.folder.filename().string() : id},
-      {"run", fs::absolute(record.folder).string()},
-      {"out", fs::absolute(folder / (format == "rerun" ? "run.rrd" : "run.mcap")).string()},
-      {"structure", parts.structure ? fs::absolute(structure).string() : ""},
+      {"out", fs::absolute(folder / (is_rerun ? "run.rrd" : "run.mcap")).string()},
+      {"structure", parts.structure ? structure_of(*parts.structure, handed) : Json(nullptr)},
+      {"trajectory", std::move(trajectory)},
+      {"plots", plots_of(record)},
       {"cameras", parts.frames ? cameras_of_frames(*parts.frames) : cameras_of_views(record)},
-      {"cloud", growth_of(record, parts.cloud)}};
-  const bool is_rerun = format == "rerun";
+      {"points", handed_over(points, handed / "points")},
+      {"growth", growth_of(record, parts.cloud)}};
   const Json written = ask_python(
       {.what = fmt::format("--format {}", format),
        .modules = {{"recorded_run", recorded_run_py()},
@@ -125,8 +167,12 @@ std::string write_timeline(const RunRecord& record, const TimelineParts& parts,
        .pip = is_rerun ? "numpy rerun-sdk"
                        : "numpy mcap mcap-protobuf-support foxglove-schemas-protobuf pillow"},
       scene);
-  fs::remove(structure);
-  return words_of(written);
+  fs::remove_all(handed);
+  std::string words;
+  for (const auto& [kind, count] : written.items()) {
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count.get<std::int64_t>(), kind);
+  }
+  return words;
 }
 
 }  // namespace gnbv

@@ -1,11 +1,10 @@
-#include "tools/exports/tum.hpp"
-
+#include <algorithm>
 #include <string>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/exports/export_folder.hpp"
-#include "tools/run/run_record.hpp"
+#include "tools/exports/formats.hpp"
 #include "tools/run/trajectory_tum.hpp"
 
 namespace gnbv {
@@ -70,6 +69,14 @@ std::string groundtruth_at_frames(const RunRecord& record, const CameraModel& ca
   return text;
 }
 
+/// The camera as the scenario mounts it.
+CameraModel camera_named(const RunRecord& record, std::string_view name) {
+  const auto found = std::ranges::find(record.scenario.cameras, name, &CameraConfig::name);
+  if (found != record.scenario.cameras.end()) return make_camera_model(*found);
+  throw BadInput(fmt::format("{}: cameras.json names '{}', which scenario.yaml does not have",
+                             (record.folder / kFramesFolder).string(), name));
+}
+
 void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_t camera,
                   const fs::path& folder) {
   std::string rgb = "# time_s file\n";
@@ -90,8 +97,8 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
     link_or_copy(frame.depth, folder / "depth" / name);
   }
   if (times_s.empty()) return;
-  const CameraModel model = camera_named(record, frames.cameras[camera].name);
   const FrameCamera& c = frames.cameras[camera];
+  const CameraModel model = camera_named(record, c.name);
   write_file_atomically(folder / "calibration.txt",
                         fmt::format("# fx fy cx cy width height\n{} {} {} {} {} {}\n", c.fx_px,
                                     c.fy_px, c.cx_px, c.cy_px, c.width_px, c.height_px));
@@ -107,12 +114,13 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
 
 }  // namespace
 
-void write_tum(const RunRecord& record, const FrameRecord* frames, const fs::path& folder) {
-  need_path(record);
+void write_tum(const RunRecord& record, const std::optional<FrameRecord>& frames,
+               const fs::path& folder) {
+  if (record.path.empty()) throw BadInput(record.missing.front());  // trajectory.tum
   write_file_atomically(folder / "trajectory.txt",
                         tum_text("body FLU in world ENU, true", record.path));
   double steps_per_m = 1000.0;
-  if (frames != nullptr) {
+  if (frames) {
     steps_per_m = 1.0 / frames->cameras.front().depth_scale_m;
     for (std::size_t i = 0; i < frames->cameras.size(); ++i) {
       write_camera(record, *frames, i, folder / file_word(frames->cameras[i]));

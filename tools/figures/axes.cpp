@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sim/core/text.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/text.hpp"
 #include "tools/figures/group_figures.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

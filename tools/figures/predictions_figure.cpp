@@ -7,7 +7,7 @@
 
 #include "tools/figures/run_figures.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/predictions_csv.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 namespace {

@@ -20,7 +20,6 @@
 #include "tools/page/page_text.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
-#include "tools/run/margin_note.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"

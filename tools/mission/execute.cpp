@@ -30,7 +30,6 @@
 #include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/user_views.hpp"
-#include "tools/run/words.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"

@@ -8,7 +8,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/run/summary_json.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "planner/planners.hpp"
 #include "tools/page/packs.hpp"
-#include "tools/run/plan_jsonl.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 namespace {

@@ -14,7 +14,6 @@
 #include "tools/page/packs.hpp"
 #include "tools/page/page_text.hpp"
 #include "tools/run/run_files.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/looks.hpp"
 
 namespace gnbv {

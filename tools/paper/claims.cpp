@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "bench/compare/text_table.hpp"
+#include "sim/core/text.hpp"
 #include "tools/figures/curves.hpp"
 #include "tools/paper/comparisons.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/figures/run_figures.hpp"
 #include "tools/paper/comparisons.hpp"
 #include "tools/paper/figures.hpp"
 #include "tools/render/grid_samples.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/surface/surface.hpp"
 #include "tools/surface/surface_picture.hpp"

@@ -11,7 +11,6 @@
 #include "tools/page/jpeg.hpp"
 #include "tools/page/page_text.hpp"
 #include "tools/paper/page_parts.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,14 +1,16 @@
 // gnbv._core: what the Python package gnbv calls.
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
 
 #include <filesystem>
 
+#include "planner/map/octomap_io.hpp"
 #include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
+#include "tools/python/arrays.hpp"
 #include "tools/python/belief_view.hpp"
-#include "tools/python/env_bindings.hpp"
-#include "tools/python/map_file.hpp"
-#include "tools/python/run_mission.hpp"
+#include "tools/python/bindings.hpp"
+#include "tools/run/cloud_file.hpp"
 
 namespace {
 
@@ -41,6 +43,26 @@ void translate(const std::exception_ptr& thrown, void*) {
   }
 }
 
+/// x, y, z of its centre, size, log-odds of each leaf; m, world ENU.
+nb::object read_map(const std::string& path) {
+  const gnbv::OctomapLeaves read = gnbv::read_octomap(path);
+  std::vector<double> rows;
+  for (const gnbv::OctomapLeaf& leaf : read.leaves) {
+    const double half_m = 0.5 * leaf.edge_voxels * read.voxel_m;
+    for (const std::int32_t low : leaf.first) rows.push_back(low * read.voxel_m + half_m);
+    rows.insert(rows.end(), {2.0 * half_m, static_cast<double>(leaf.log_odds)});
+  }
+  return gnbv::owned_array(std::move(rows), 5);
+}
+
+/// x, y, z of each point; m, world ENU.
+nb::object read_cloud(const std::string& path) {
+  std::vector<float> rows;
+  for (const gnbv::Vec3f& p_m : gnbv::read_cloud(path))
+    rows.insert(rows.end(), p_m.begin(), p_m.end());
+  return gnbv::owned_array(std::move(rows), 3);
+}
+
 }  // namespace
 
 NB_MODULE(_core, m) {
@@ -50,5 +72,8 @@ NB_MODULE(_core, m) {
   gnbv::bind_belief(m);
   gnbv::bind_run(m);
   gnbv::bind_env(m);
-  gnbv::bind_map_file(m);
+  m.def("read_map", &read_map, nb::arg("path"),
+        nb::sig("def read_map(path: str) -> numpy.typing.NDArray[numpy.float64]"));
+  m.def("read_cloud", &read_cloud, nb::arg("path"),
+        nb::sig("def read_cloud(path: str) -> numpy.typing.NDArray[numpy.float32]"));
 }

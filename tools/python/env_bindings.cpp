@@ -1,11 +1,10 @@
-#include "tools/python/env_bindings.hpp"
-
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "sim/core/error.hpp"
 #include "tools/python/arrays.hpp"
+#include "tools/python/bindings.hpp"
 #include "tools/python/env_mission.hpp"
 
 namespace gnbv {

@@ -92,9 +92,9 @@ const EnvState& EnvMission::wait() {
 }
 
 void EnvMission::keep(const Belief& belief) {
-  belief_ = &belief;
   state_.entropy_nat = belief.grid.total_entropy_nat();
   state_.cloud_points = belief.cloud.points_world_m().size();
+  state_.seen = observer_->observe(belief, state_.pose, taken_, with_candidates_);
 }
 
 /// The mission's turn ends here, and begins again with the agent's view.
@@ -116,11 +116,6 @@ void EnvMission::on_view(const ViewRecord& view, const Belief& belief) {
   ++taken_;
   keep(belief);
   state_.coverage = coverage_of_(belief);
-  observe();
-}
-
-void EnvMission::observe() {
-  state_.seen = observer_->observe(*belief_, state_.pose, taken_, with_candidates_);
 }
 
 void EnvMission::fly(Scenario scenario) {
@@ -138,14 +133,12 @@ void EnvMission::fly(Scenario scenario) {
     const MissionResult result = run_mission(scenario, stage_->world, stage_->scene, inputs, 1);
     state_.termination = name_of(result.termination);
     keep(result.belief);
-    observe();
   } catch (...) {
     failure_ = std::current_exception();
   }
   permits_->give();
   const std::lock_guard lock(mutex_);
   state_.ended = true;
-  belief_ = nullptr;
   turn_ = Turn::over;
   turned_.notify_all();
 }

@@ -75,14 +75,11 @@ class EnvMission final : public MissionObserver {
   const EnvState& wait();
   void close();
 
-  const EnvStage& stage() const { return *stage_; }
-
  private:
   enum class Turn { mission, agent, over };
   void fly(Scenario scenario);
   std::optional<ViewPose> ask();
   void keep(const Belief& belief);
-  void observe();
   void on_view(const ViewRecord& view, const Belief& belief) override;
 
   std::shared_ptr<const EnvStage> stage_;
@@ -98,8 +95,7 @@ class EnvMission final : public MissionObserver {
   std::exception_ptr failure_;
   EnvState state_;
   std::function<double(const Belief&)> coverage_of_;
-  std::size_t taken_ = 0;           // views
-  const Belief* belief_ = nullptr;  // the mission's
+  std::size_t taken_ = 0;  // views
   std::thread thread_;
 };
 

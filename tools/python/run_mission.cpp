@@ -1,5 +1,3 @@
-#include "tools/python/run_mission.hpp"
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -10,6 +8,7 @@
 #include "tools/mission/execute.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/python/belief_view.hpp"
+#include "tools/python/bindings.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/terminal/interrupt.hpp"
 
@@ -67,7 +66,10 @@ class AskedPlanner {
   UserPlanner hooks() {
     return {.plan = [this](const Belief& belief) { return plan(belief); },
             .on_view = [this](const ViewRecord& view) { tell_view(view); },
-            .on_refused = [this](Rejection reason) { tell_refused(reason); }};
+            .on_refused =
+                [this](Rejection reason) {
+                  tell("on_refused", [&] { return std::string(name_of(reason)); });
+                }};
   }
   /// Whether arrays of the belief may be in use: in Python's hands, or its exception's.
   bool has_kept() const { return has_kept_; }
@@ -94,19 +96,15 @@ class AskedPlanner {
 
   void tell_view(const ViewRecord& view) {
     current_ = view.decision.view;
-    const nb::gil_scoped_acquire python_runs;
-    try {
-      python_.attr("on_view")(row_of(view));
-    } catch (nb::python_error& error) {
-      raised_.keep(error);
-    }
+    tell("on_view", [&] { return row_of(view); });
   }
 
-  void tell_refused(Rejection reason) {
+  /// Calls the method with what `made` makes while Python waits.
+  template <typename Made>
+  void tell(const char* method, const Made& made) {
     const nb::gil_scoped_acquire python_runs;
     try {
-      const std::string_view name = name_of(reason);
-      python_.attr("on_refused")(nb::str(name.data(), name.size()));
+      python_.attr(method)(made());
     } catch (nb::python_error& error) {
       raised_.keep(error);
     }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tools/run/words.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/render/caption.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/structure.hpp"
 
 namespace gnbv {

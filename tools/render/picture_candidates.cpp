@@ -8,8 +8,8 @@
 #include <map>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/decision.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"

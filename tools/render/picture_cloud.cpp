@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bench/score/voxel_set.hpp"
+#include "sim/core/text.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"
 

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/core/text.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"

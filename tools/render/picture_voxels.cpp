@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/core/text.hpp"
 #include "tools/render/picture.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "bench/score/voxel_set.hpp"
 #include "sensors/capture.hpp"
+#include "sim/core/text.hpp"
 #include "tools/run/run_record.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/structure.hpp"
 #include "tools/scene/voxels.hpp"

@@ -1,5 +1,6 @@
 #include "tools/run/beliefs_jsonl.hpp"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -31,13 +32,13 @@ Json json_of(const VoxelRuns& runs) {
 }
 
 VoxelRuns runs_of(const Json& json, std::size_t voxels) {
-  if (!json.is_array() || json.size() % 2 != 0) throw BadInput("is no list of gaps and lengths");
+  const bool is_list =
+      json.is_array() && json.size() % 2 == 0 &&
+      std::ranges::all_of(json, [](const Json& n) { return n.is_number_unsigned(); });
+  if (!is_list) throw BadInput("is no list of gaps and lengths, which are whole numbers");
   VoxelRuns runs;
   std::uint64_t end = 0;
   for (std::size_t i = 0; i < json.size(); i += 2) {
-    if (!json[i].is_number_unsigned() || !json[i + 1].is_number_unsigned()) {
-      throw BadInput("gaps and lengths are whole numbers");
-    }
     const auto gap = json[i].get<std::uint64_t>();
     const auto length = json[i + 1].get<std::uint64_t>();
     if (gap > voxels || length > voxels || end + gap + length > voxels) {
@@ -68,27 +69,28 @@ std::size_t voxel_count(const VoxelRuns& runs) {
 }
 
 BeliefsFile::BeliefsFile(const fs::path& folder, std::size_t first_iteration)
-    : lines_(folder / kBeliefsFile, lines_before(first_iteration, folder, kBeliefsFile).text) {}
+    : DecisionLines(folder / kBeliefsFile,
+                    lines_before(first_iteration, folder, kBeliefsFile).text) {}
 
 void BeliefsFile::write(std::size_t iteration, const BelievedVoxels& voxels) {
   Json json = {{"iteration", iteration}};
   for (const auto& [name, list] : kLists) {
     if (!(voxels.*list).empty()) json[name] = json_of(voxels.*list);
   }
-  lines_.write(json.dump() + '\n');
+  write_lines(json.dump() + '\n');
 }
-
-void BeliefsFile::finish() { lines_.finish(); }
 
 std::vector<BelievedVoxels> read_beliefs(const fs::path& run, std::size_t iterations,
                                          std::size_t voxels) {
   std::vector<BelievedVoxels> all(iterations);
-  const bool has_lines = read_decision_lines(
-      run, kBeliefsFile, iterations, "", [&](std::size_t iteration, const Json& json) {
-        for (const auto& [name, list] : kLists) {
-          if (json.contains(name)) all[iteration].*list = runs_of(json.at(name), voxels);
-        }
-      });
+  const bool has_lines =
+      read_decision_lines(run, kBeliefsFile, iterations, "",
+                          [&](std::size_t iteration, const Json& json, std::string_view) {
+                            for (const auto& [name, list] : kLists) {
+                              if (json.contains(name))
+                                all[iteration].*list = runs_of(json.at(name), voxels);
+                            }
+                          });
   return has_lines ? all : std::vector<BelievedVoxels>{};
 }
 

@@ -37,17 +37,13 @@ struct BelievedVoxels {
 /// those without voxels left out: of each run the gap to the end of the one before (the first one's
 /// to voxel 0), then its length. Voxels count along x first, then y, then z, through the lattice of
 /// workspace and map.resolution_m. Written as candidates.jsonl is.
-class BeliefsFile {
+class BeliefsFile : public DecisionLines {
  public:
   /// What an interrupted run wrote of decisions before `first_iteration` is kept; an older
   /// program's run wrote none. Throws BadInput naming the file.
   BeliefsFile(const std::filesystem::path& folder, std::size_t first_iteration);
 
   void write(std::size_t iteration, const BelievedVoxels& voxels);
-  void finish();
-
- private:
-  DecisionLines lines_;
 };
 
 /// Of the first `iterations` iterations in their order; those that nothing is told of have no

@@ -1,6 +1,7 @@
 #include "tools/run/candidates_jsonl.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -17,6 +18,13 @@ namespace fs = std::filesystem;
 constexpr std::string_view kNotWritten =
     "the interrupted run did not write its candidates: resume it without --candidates";
 
+constexpr std::array<std::pair<const char*, double Score::*>, 5> kTerms = {
+    {{"utility", &Score::value},
+     {"information", &Score::information},
+     {"density", &Score::density},
+     {"prediction", &Score::prediction},
+     {"distance", &Score::distance}}};
+
 Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
   Json json = {{"iteration", iteration},      {"x_m", c.view.p_world_m.x()},
                {"y_m", c.view.p_world_m.y()}, {"z_m", c.view.p_world_m.z()},
@@ -32,18 +40,14 @@ Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
     json["rejected"] = name_of(*c.rejected);
     return json;
   }
-  json["utility"] = c.score.value;
-  json["information"] = c.score.information;
-  json["density"] = c.score.density;
-  json["prediction"] = c.score.prediction;
-  json["distance"] = c.score.distance;
+  for (const auto& [name, term] : kTerms) json[name] = c.score.*term;
   json["chosen"] = is_chosen;
   return json;
 }
 
-std::optional<Rejection> rejection_of(const std::string& name) {
-  const auto at = std::find(kRejectionNames.begin(), kRejectionNames.end(), name);
-  if (at == kRejectionNames.end()) return std::nullopt;
+Rejection rejection_of(const Json& json) {
+  const auto at = std::ranges::find(kRejectionNames, json.get_ref<const std::string&>());
+  if (at == kRejectionNames.end()) throw BadInput("rejected: no such reason");
   return static_cast<Rejection>(at - kRejectionNames.begin());
 }
 
@@ -69,14 +73,9 @@ Candidate candidate_of(const Json& json) {
               .path_m = json.at("path_m")};
   if (json.contains("rejected")) {
     c.rejected = rejection_of(json.at("rejected"));
-    if (!c.rejected) throw BadInput("rejected: no such reason");
     return c;
   }
-  c.score = {.value = json.at("utility"),
-             .information = json.at("information"),
-             .density = json.at("density"),
-             .prediction = json.at("prediction"),
-             .distance = json.at("distance")};
+  for (const auto& [name, term] : kTerms) c.score.*term = json.at(name);
   return c;
 }
 
@@ -100,24 +99,22 @@ std::string candidates_before(std::size_t iteration, const fs::path& run) {
 }  // namespace
 
 CandidatesFile::CandidatesFile(const fs::path& folder, std::size_t first_iteration)
-    : lines_(folder / kCandidatesFile, candidates_before(first_iteration, folder)) {}
+    : DecisionLines(folder / kCandidatesFile, candidates_before(first_iteration, folder)) {}
 
 void CandidatesFile::write(std::size_t iteration, const Plan& plan) {
   std::string lines;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     lines += json_of(iteration, plan.candidates[i], plan.is_chosen(i)).dump() += '\n';
   }
-  lines_.write(lines);
+  write_lines(lines);
 }
-
-void CandidatesFile::finish() { lines_.finish(); }
 
 std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) {
   Plan plan;
   // lines are told apart by how they begin: a long mission has hundreds of thousands
   const bool has_lines = read_decision_lines(
       run, kCandidatesFile, iteration + 1, fmt::format("{{\"iteration\":{},", iteration),
-      [&](std::size_t, const Json& json) { add_candidate(json, plan); });
+      [&](std::size_t, const Json& json, std::string_view) { add_candidate(json, plan); });
   if (!has_lines) return std::nullopt;  // an oracle's mission samples none
   if (plan.candidates.empty()) {
     throw BadInput(fmt::format("{}: holds no candidate of iteration {}; {} writes them",
@@ -129,9 +126,11 @@ std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) 
 
 std::vector<Plan> read_all_candidates(const fs::path& run, std::size_t iterations) {
   std::vector<Plan> plans(iterations);
-  const bool has_lines = read_decision_lines(
-      run, kCandidatesFile, iterations, "",
-      [&](std::size_t iteration, const Json& json) { add_candidate(json, plans[iteration]); });
+  const bool has_lines =
+      read_decision_lines(run, kCandidatesFile, iterations, "",
+                          [&](std::size_t iteration, const Json& json, std::string_view) {
+                            add_candidate(json, plans[iteration]);
+                          });
   return has_lines ? plans : std::vector<Plan>{};
 }
 

@@ -13,17 +13,13 @@ namespace gnbv {
 /// that the decision chose, pose (m, rad; the gimbal's pitch unless it is 0), sampler, scale or
 /// cluster, path_m, then either `rejected` with its reason or `utility` with its terms; `chosen`
 /// marks the one that was flown to. Appended to candidates.jsonl.part, which finish() renames.
-class CandidatesFile {
+class CandidatesFile : public DecisionLines {
  public:
   /// `first_iteration`: decisions from here on will be written; what an interrupted run wrote of
   /// earlier ones is kept. Throws BadInput naming the file.
   CandidatesFile(const std::filesystem::path& folder, std::size_t first_iteration);
 
   void write(std::size_t iteration, const Plan& plan);
-  void finish();
-
- private:
-  DecisionLines lines_;
 };
 
 /// The candidates of the decision that chose view `iteration`, in the order they were sampled, and

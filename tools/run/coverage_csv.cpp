@@ -1,5 +1,7 @@
 #include "tools/run/coverage_csv.hpp"
 
+#include <algorithm>
+
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/separated_text.hpp"
@@ -46,29 +48,28 @@ std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCovera
 CoverageFile read_coverage_csv(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   std::string_view rest = text;
-  CoverageFile read;
   const std::string_view header = next_part(rest, '\n');
   const std::vector<std::string_view> names = split(header, ',');
-  if (!header.starts_with(kHeader)) need_header(header, kHeader, {file, 1});
+  CoverageFile read;
+  bool is_header = header.starts_with(kHeader);
   for (std::size_t i = kColumns; i < names.size(); ++i) {
-    if (!names[i].starts_with(kColumn)) need_header(header, kHeader, {file, 1});
-    read.more_names.emplace_back(names[i].substr(kColumn.size()));
+    is_header = is_header && names[i].starts_with(kColumn);
+    read.more_names.emplace_back(names[i].substr(std::min(kColumn.size(), names[i].size())));
   }
+  if (!is_header) need_header(header, kHeader, {file, 1});
   read.more_curves.resize(read.more_names.size());
-  for (int line = 2; !rest.empty(); ++line) {
-    const TextPlace place{file, line};
-    const std::string_view row = next_part(rest, '\n');
-    const std::vector<std::string_view> cells = split(row, ',');
-    if (cells.size() != names.size()) {
+  const auto take = [&](std::string_view row, const TextPlace& place) {
+    std::vector<double> values;
+    for (const std::string_view cell : split(row, ',')) {
+      values.push_back(to_number(cell, place, fmt::format("'{}':", row)));
+    }
+    if (values.size() != names.size()) {
       throw BadInput(
           fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, names.size()));
     }
-    std::vector<double> values;
-    for (const std::string_view cell : cells) {
-      values.push_back(to_number(cell, place, fmt::format("'{}':", row)));
-    }
-    if (values[0] != line - 2) {
-      throw BadInput(fmt::format("{}: view {} must be {}", to_string(place), values[0], line - 2));
+    if (values[0] != place.line - 2) {
+      throw BadInput(
+          fmt::format("{}: view {} must be {}", to_string(place), values[0], place.line - 2));
     }
     need_curve(read.curve, values, place);
     read.curve.metres.push_back(values[1]);
@@ -77,7 +78,8 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
     for (std::size_t i = kColumns; i < values.size(); ++i) {
       read.more_curves[i - kColumns].push_back(values[i]);
     }
-  }
+  };
+  for_each_line(rest, file, take, 2);
   return read;
 }
 

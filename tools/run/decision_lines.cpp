@@ -5,16 +5,13 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
+namespace {
 
 namespace fs = std::filesystem;
-
 using Json = nlohmann::ordered_json;
-
-namespace {
 
 std::size_t iteration_of(const Json& json) {
   if (json.is_object() && json.contains("iteration") && json["iteration"].is_number_unsigned()) {
@@ -27,43 +24,30 @@ std::size_t iteration_of(const Json& json) {
 
 LinesBefore lines_before(std::size_t iteration, const fs::path& run, const char* name) {
   LinesBefore kept;
-  const auto file = RunFiles(run).find(name);
-  if (!file) return kept;
-  const std::string content = whole_lines(*file);
-  std::string_view rest = content;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = next_part(rest, '\n');
-    try {
-      const std::size_t of = iteration_of(Json::parse(row));
-      if (of >= iteration) continue;
-      kept.text.append(row) += '\n';
-      kept.last_iteration = std::max(kept.last_iteration, of);
-    } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}", to_string(TextPlace{*file, line}), json_reason(error)));
-    }
-  }
+  read_decision_lines(run, name, iteration, "",
+                      [&](std::size_t of, const Json&, std::string_view row) {
+                        kept.text.append(row) += '\n';
+                        kept.last_iteration = std::max(kept.last_iteration, of);
+                      });
   return kept;
 }
 
 bool read_decision_lines(const fs::path& run, const char* name, std::size_t end,
-                         std::string_view beginning,
-                         const std::function<void(std::size_t, const Json&)>& take) {
+                         std::string_view beginning, const TakeDecision& take) {
   const auto file = RunFiles(run).find(name);
   if (!file) return false;
   const std::string text = whole_lines(*file);
-  std::string_view rest = text;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = next_part(rest, '\n');
-    if (!row.starts_with(beginning)) continue;
+  for_each_line(text, *file, [&](std::string_view row, const TextPlace& place) {
+    if (!row.starts_with(beginning)) return;
     try {
       const Json json = Json::parse(row);
       const std::size_t iteration = iteration_of(json);
-      if (iteration < end) take(iteration, json);
+      if (iteration < end) take(iteration, json, row);
     } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(TextPlace{*file, line}),
-                                 json_reason(error), command_to_fly_again(run, "--candidates")));
+      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), json_reason(error),
+                                 command_to_fly_again(run, "--candidates")));
     }
-  }
+  });
   return !text.empty();
 }
 

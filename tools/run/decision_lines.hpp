@@ -17,16 +17,17 @@ struct LinesBefore {
   std::size_t last_iteration = 0;  // 0: there are none
 };
 
-/// As an interrupted run left them. Throws BadInput naming file and line of what has no
-/// `iteration`.
+/// As an interrupted run left them. Throws as read_decision_lines().
 LinesBefore lines_before(std::size_t iteration, const std::filesystem::path& run, const char* name);
+
+using TakeDecision =
+    std::function<void(std::size_t iteration, const nlohmann::ordered_json&, std::string_view row)>;
 
 /// Hands over what each line of a run's file holds, of iterations before `end`; those alone that
 /// begin with `beginning`. Returns whether there is any line. Throws BadInput naming file, line and
 /// the command that writes it anew for whatever is damaged, or `take` refuses.
-bool read_decision_lines(
-    const std::filesystem::path& run, const char* name, std::size_t end, std::string_view beginning,
-    const std::function<void(std::size_t iteration, const nlohmann::ordered_json&)>& take);
+bool read_decision_lines(const std::filesystem::path& run, const char* name, std::size_t end,
+                         std::string_view beginning, const TakeDecision& take);
 
 /// Appends to part_of() a file, which finish() renames.
 class DecisionLines {
@@ -34,10 +35,11 @@ class DecisionLines {
   /// Begins with `kept`. Throws as refuse_to_write(), as all of it does.
   DecisionLines(const std::filesystem::path& file, const std::string& kept)
       : path_(file), part_(part_of(file), kept) {}
-
-  /// `lines` end with a line feed.
-  void write(const std::string& lines) { part_.write(lines); }
   void finish() const;
+
+ protected:
+  /// `lines` end with a line feed.
+  void write_lines(const std::string& lines) { part_.write(lines); }
 
  private:
   std::filesystem::path path_;

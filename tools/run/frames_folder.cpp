@@ -22,7 +22,12 @@ constexpr const char* kPosesFile = "poses.csv";
 constexpr std::string_view kPosesHeader =
     "iteration,camera,time_s,x_m,y_m,z_m,qx,qy,qz,qw,rgb,depth";
 
-constexpr double kDepthStep_m = 0.001;
+constexpr std::array<std::pair<const char*, double FrameCamera::*>, 5> kCameraNumbers = {
+    {{"fx_px", &FrameCamera::fx_px},
+     {"fy_px", &FrameCamera::fy_px},
+     {"cx_px", &FrameCamera::cx_px},
+     {"cy_px", &FrameCamera::cy_px},
+     {"depth_scale_m", &FrameCamera::depth_scale_m}}};
 
 std::uint16_t millimetres(float depth_m) {
   constexpr float kMax_mm = 65535.0F;
@@ -44,12 +49,6 @@ Image image_of(const ColourFrame& frame, const CameraConfig& camera) {
   return image;
 }
 
-std::string row_of(std::size_t iteration, double time_s, const std::string& camera,
-                   const Isometry& T_world_camera, const std::string& stem) {
-  return fmt::format("{},{},{:.3f},{},{}.rgb.png,{}.depth.png\n", iteration, camera, time_s,
-                     pose_text(T_world_camera, ','), stem, stem);
-}
-
 /// An image of the folder itself, so that a damaged file cannot name any other.
 fs::path image_named(const fs::path& folder, std::string_view name, const TextPlace& place) {
   const fs::path file(trimmed(name));
@@ -64,8 +63,7 @@ RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cam
                        const TextPlace& place) {
   std::vector<std::string_view> cells = split(row, ',');
   cells.resize(12);
-  const auto camera = std::find_if(cameras.begin(), cameras.end(),
-                                   [&](const FrameCamera& c) { return c.name == cells[1]; });
+  const auto camera = std::ranges::find(cameras, cells[1], &FrameCamera::name);
   if (camera == cameras.end()) {
     throw BadInput(
         fmt::format("{}: camera `{}` is not in {}", to_string(place), cells[1], kCamerasFile));
@@ -83,26 +81,22 @@ RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cam
           .depth = image_named(folder, cells[11], place)};
 }
 
-Json json_of(const CameraModel& camera) {
-  return {{"name", camera.config.name},
-          {"width_px", camera.config.width_px},
-          {"height_px", camera.config.height_px},
-          {"fx_px", camera.fx_px},
-          {"fy_px", camera.fy_px},
-          {"cx_px", camera.cx_px},
-          {"cy_px", camera.cy_px},
-          {"depth_scale_m", kDepthStep_m}};
+FrameCamera frame_camera_of(const CameraModel& camera) {
+  return {camera.config.name, camera.config.width_px, camera.config.height_px,
+          camera.fx_px,       camera.fy_px,           camera.cx_px,
+          camera.cy_px};
+}
+
+Json json_of(const FrameCamera& camera) {
+  Json json = {
+      {"name", camera.name}, {"width_px", camera.width_px}, {"height_px", camera.height_px}};
+  for (const auto& [name, number] : kCameraNumbers) json[name] = camera.*number;
+  return json;
 }
 
 FrameCamera camera_of(const Json& json) {
-  FrameCamera c{.name = json.at("name"),
-                .width_px = json.at("width_px"),
-                .height_px = json.at("height_px"),
-                .fx_px = json.at("fx_px"),
-                .fy_px = json.at("fy_px"),
-                .cx_px = json.at("cx_px"),
-                .cy_px = json.at("cy_px"),
-                .depth_scale_m = json.at("depth_scale_m")};
+  FrameCamera c{json.at("name"), json.at("width_px"), json.at("height_px")};
+  for (const auto& [name, number] : kCameraNumbers) c.*number = json.at(name);
   const bool is_camera =
       c.width_px > 0 && c.height_px > 0 && c.fx_px > 0.0 && c.fy_px > 0.0 && c.depth_scale_m > 0.0;
   if (is_camera) return c;
@@ -121,7 +115,7 @@ std::vector<FrameCamera> read_cameras(const fs::path& path) {
   return cameras;
 }
 
-/// The image, which `file` holds, of a camera of its size.
+/// The image, which `file` holds.
 template <typename AnyImage>
 AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file) {
   if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
@@ -141,7 +135,7 @@ FramesFolder::FramesFolder(const fs::path& run, std::vector<CameraModel> cameras
       cameras_(std::move(cameras)),
       poses_((make_folder(folder_), folder_ / kPosesFile), fmt::format("{}\n", kPosesHeader)) {
   Json intrinsics = Json::array();
-  for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(camera));
+  for (const CameraModel& camera : cameras_) intrinsics.push_back(json_of(frame_camera_of(camera)));
   write_file_atomically(folder_ / kCamerasFile, intrinsics.dump(2) + "\n");
 }
 
@@ -154,7 +148,8 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
     const std::string stem = frame_stem(iteration, camera.name);
     write_png(image_of(colour[i], camera), folder_ / (stem + ".rgb.png"), Lasting::the_process);
     write_png(image_of(depth[i], camera), folder_ / (stem + ".depth.png"), Lasting::the_process);
-    poses_.write(row_of(iteration, time_s, camera.name, depth[i].T_world_camera, stem));
+    poses_.write(fmt::format("{},{},{:.3f},{},{}.rgb.png,{}.depth.png\n", iteration, camera.name,
+                             time_s, pose_text(depth[i].T_world_camera, ','), stem, stem));
   }
 }
 
@@ -181,10 +176,11 @@ FrameRecord read_frames(const fs::path& run) {
   std::string_view rest(text.data(), text.rfind('\n') + 1);  // a killed run may not end a row
   need_header(trimmed(next_part(rest, '\n')), kPosesHeader, {poses, 1},
               fmt::format("; {} flies the mission again", again));
-  for (int line = 2; !rest.empty(); ++line) {
-    const std::string_view row = trimmed(next_part(rest, '\n'));
-    if (!row.empty()) record.frames.push_back(frame_of(row, record.cameras, {poses, line}));
-  }
+  const auto take = [&](std::string_view line, const TextPlace& place) {
+    const std::string_view row = trimmed(line);
+    if (!row.empty()) record.frames.push_back(frame_of(row, record.cameras, place));
+  };
+  for_each_line(rest, poses, take, 2);
   if (record.frames.empty()) throw BadInput(fmt::format("{}: holds no frame", poses.string()));
   return record;
 }

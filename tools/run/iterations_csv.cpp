@@ -158,14 +158,9 @@ struct Row {
 
 std::string header_text(Columns columns) { return joined(cells_of({}, columns).names); }
 
-std::ptrdiff_t cells_in(std::string_view row) {
-  return 1 + std::count(row.begin(), row.end(), ',');
-}
-
-/// `expected`: cells of the header.
-ViewRecord record_of(std::string_view row, Columns columns, std::ptrdiff_t expected, int iteration,
-                     const TextPlace& place) {
-  if (cells_in(row) != expected) {
+ViewRecord record_of(std::string_view row, Columns columns, int iteration, const TextPlace& place) {
+  const std::size_t expected = cells_of({}, columns).names.size();
+  if (split(row, ',').size() != expected) {
     throw BadInput(fmt::format("{}: '{}' must have {} columns", to_string(place), row, expected));
   }
   ViewRecord view;
@@ -183,15 +178,9 @@ Columns columns_of(const Scenario& scenario) {
   return gimbal_of(scenario.cameras) ? Columns::with_gimbal : Columns::usual;
 }
 
-std::string iterations_csv_header(Columns columns) { return header_text(columns) + "\n"; }
-
-std::string iterations_csv_row(const ViewRecord& view, Columns columns) {
-  return joined(cells_of(view, columns).values) + "\n";
-}
-
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
-  std::string csv = iterations_csv_header(columns);
-  for (const ViewRecord& view : views) csv += iterations_csv_row(view, columns);
+  std::string csv = header_text(columns) + "\n";
+  for (const ViewRecord& view : views) csv += joined(cells_of(view, columns).values) + "\n";
   return csv;
 }
 
@@ -238,35 +227,25 @@ std::string decision_cells(const ViewRecord& view) {
 
 std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
   const std::string text = read_file(csv);
-  std::string_view rest(text.data(), text.rfind('\n') + 1);  // npos + 1: none
   std::vector<ViewRecord> views;
   Columns columns = Columns::usual;
-  std::ptrdiff_t cells = 0;
   bool has_checks = false;
   std::string check;
-  for (int line = 1; !rest.empty(); ++line) {
-    std::string_view row = next_part(rest, '\n');
-    const TextPlace place{csv, line};
-    if (line > 1) {
+  const auto take = [&](std::string_view row, const TextPlace& place) {
+    if (place.line > 1) {
       if (has_checks) check = take_check(check, row, place);
-      views.push_back(record_of(row, columns, cells, line - 2, place));
-      continue;
+      views.push_back(record_of(row, columns, place.line - 2, place));
+      return;
     }
     has_checks = row.ends_with(kCheckColumn);
     if (has_checks) row.remove_suffix(kCheckColumn.size());
     if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
-    cells = cells_in(row);
     need_header(row, header_text(columns), place,
                 fmt::format(": of another version, and {} flies its mission again",
                             command_to_fly_again(csv.parent_path())));
-  }
+  };
+  for_each_line(std::string_view(text).substr(0, text.rfind('\n') + 1), csv, take);  // npos: none
   return views;
-}
-
-std::vector<Decision> read_decisions(const std::filesystem::path& csv) {
-  std::vector<Decision> decisions;
-  for (ViewRecord& view : read_view_records(csv)) decisions.push_back(std::move(view.decision));
-  return decisions;
 }
 
 }  // namespace gnbv

@@ -16,8 +16,6 @@ namespace gnbv {
 enum class Columns { usual, with_gimbal };
 Columns columns_of(const Scenario& scenario);
 
-std::string iterations_csv_header(Columns columns = Columns::usual);
-std::string iterations_csv_row(const ViewRecord& view, Columns columns = Columns::usual);
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns = Columns::usual);
 
 /// The rows of a run that goes on: a column more, `check`, is made of each row and of all before
@@ -54,8 +52,5 @@ std::string decision_cells(const ViewRecord& view);
 /// its end, as a killed run leaves it, is left out. Throws BadInput naming file and line for
 /// anything else it cannot read, and for a row of a journal that is not as it was written.
 std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv);
-
-/// Only what was decided.
-std::vector<Decision> read_decisions(const std::filesystem::path& csv);
 
 }  // namespace gnbv

@@ -1,5 +1,7 @@
 #include "tools/run/mission_result.hpp"
 
+#include <fmt/format.h>
+
 #include "sim/core/sha256.hpp"
 
 namespace gnbv {
@@ -19,6 +21,16 @@ ScoredCloud scored_cloud(const MissionResult& result) {
                      .transfer_m = result.distance.transfer_m,
                      .profile_end_s = result.profile_end_s},
           .views = view_marks(result.views)};
+}
+
+std::string margin_note(const Scenario& scenario, const PathError& error) {
+  const double radius_m = scenario.planner.validity.collision_radius_m;
+  const double hull_m = scenario.vehicle.airframe.hull_radius_m;
+  if (radius_m <= hull_m || error.max_m <= radius_m - hull_m) return "";
+  return fmt::format(
+      "the vehicle was up to {:.2f} m off its path, more than the {:.2f} m that are kept free "
+      "beyond its hull; what helps: planner.validity.collision_radius_m of at least {:.2f}\n",
+      error.max_m, radius_m - hull_m, error.max_m + hull_m);
 }
 
 std::string result_sha256(const MissionResult& result) {

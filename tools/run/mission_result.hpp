@@ -13,9 +13,9 @@
 #include "planner/core/plan.hpp"
 #include "planner/core/planner.hpp"
 #include "planner/symmetry/symmetry.hpp"
+#include "scenarios/scenario.hpp"
 #include "sim/flight/flight.hpp"
-#include "tools/run/plan_jsonl.hpp"
-#include "tools/run/predictions_csv.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 
@@ -132,6 +132,11 @@ std::vector<ViewMark> view_marks(std::span<const ViewRecord> views);
 
 /// What a score needs of a mission.
 ScoredCloud scored_cloud(const MissionResult& result);
+
+/// A line for a flight that truly was farther from its legs than planner.validity.
+/// collision_radius_m leaves beyond the hull, so that only luck kept it from the structure; nothing
+/// for others.
+std::string margin_note(const Scenario& scenario, const PathError& error);
 
 /// SHA-256 over all that the mission measured, decided and believed: flight, views, map, cloud.
 std::string result_sha256(const MissionResult& result);

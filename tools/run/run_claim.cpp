@@ -1,6 +1,5 @@
 #include "tools/run/run_claim.hpp"
 
-#include <algorithm>
 #include <cerrno>
 
 #include "sim/core/error.hpp"
@@ -57,15 +56,6 @@ RunClaim::~RunClaim() {
   for (const fs::path& folder : made_) {
     if (fs::is_directory(fs::symlink_status(folder, ignored))) fs::remove(folder, ignored);
   }
-}
-
-bool holds_only_leftovers(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error)) return true;
-  return std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) {
-                       return entry.path().filename() == kLockFile || is_temporary(entry.path());
-                     });
 }
 
 }  // namespace gnbv

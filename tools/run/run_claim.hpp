@@ -33,8 +33,4 @@ class RunClaim {
   std::optional<FileLock> lock_;
 };
 
-/// Whether nothing is in the folder but what claims and killed writers leave; also when it is not
-/// there.
-bool holds_only_leftovers(const std::filesystem::path& folder);
-
 }  // namespace gnbv

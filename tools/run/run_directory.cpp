@@ -1,5 +1,7 @@
 #include "tools/run/run_directory.hpp"
 
+#include <algorithm>
+
 #include "planner/core/belief.hpp"
 #include "planner/map/octomap_io.hpp"
 #include "planner/planners.hpp"
@@ -9,11 +11,9 @@
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/coverage_csv.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/plan_jsonl.hpp"
-#include "tools/run/predictions_csv.hpp"
-#include "tools/run/run_claim.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/run/tour_files.hpp"
 #include "tools/run/trajectory_tum.hpp"
 #include "tools/run/user_views.hpp"
 
@@ -26,6 +26,15 @@ namespace {
 constexpr const char* kOtherRecord =
     "another version of the program, another world or another kind of processor made the record, "
     "or it was edited";
+
+/// Nothing is in the folder but what claims and killed writers leave; or it is not there.
+bool holds_only_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  return std::all_of(fs::directory_iterator(folder, ignored), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) {
+                       return entry.path().filename() == kLockFile || is_temporary(entry.path());
+                     });
+}
 
 /// Before any is flown again: a leg to nowhere takes for ever.
 void need_inside(const ViewRecord& view, const Scenario& scenario, const fs::path& file) {
@@ -63,8 +72,8 @@ bool is_run_of(const fs::path& folder, const Scenario& scenario) {
 }  // namespace
 
 void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) {
-  std::error_code error;
-  const bool holds_a_run = fs::exists(folder / kScenarioFile, error);
+  std::error_code ignored;
+  const bool holds_a_run = fs::exists(folder / kScenarioFile, ignored);
   if (!holds_a_run && !holds_only_leftovers(folder)) {
     throw BadInput(fmt::format("{}: is not empty and holds no run{}: choose another --out",
                                folder.string(),

@@ -7,6 +7,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
+#include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -14,24 +15,21 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string hash_of(const TriangleMesh& mesh) {
+RunInput mesh_input(const char* key, const std::string& name, const TriangleMesh& mesh) {
   Sha256 sha;
   add_mesh(sha, mesh);
-  return sha.hex();
+  return {key, name, sha.hex()};
 }
 
 /// The hash of each key; none where there is no such file.
 std::map<std::string, std::string> read_hashes(const fs::path& path) {
   std::map<std::string, std::string> hashes;
   if (!fs::exists(path)) return hashes;
-  const Json json = Json::parse(read_file(path), nullptr, false);
-  const bool has_inputs = json.is_object() && json.contains("inputs") && json["inputs"].is_array();
-  if (!has_inputs) throw BadInput(fmt::format("{}: holds no inputs", path.string()));
-  for (const Json& input : json["inputs"]) {
-    const bool is_whole = input.is_object() && input.contains("key") && input["key"].is_string() &&
-                          input.contains("sha256") && input["sha256"].is_string();
-    if (!is_whole) throw BadInput(fmt::format("{}: an input without hash", path.string()));
-    hashes[input["key"].get<std::string>()] = input["sha256"].get<std::string>();
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
+  } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
   }
   return hashes;
 }
@@ -40,13 +38,13 @@ std::map<std::string, std::string> read_hashes(const fs::path& path) {
 
 std::vector<RunInput> world_inputs(const Scenario& scenario, const World& world) {
   std::vector<RunInput> inputs = {
-      {"structure", structure_name(scenario.structure), hash_of(world.structure)}};
+      mesh_input("structure", structure_name(scenario.structure), world.structure)};
   if (!world.obstacles.faces.empty()) {
-    inputs.push_back({"obstacles", fmt::format("{} obstacles", scenario.obstacles.size()),
-                      hash_of(world.obstacles)});
+    const std::string name = fmt::format("{} obstacles", scenario.obstacles.size());
+    inputs.push_back(mesh_input("obstacles", name, world.obstacles));
   }
   if (!world.terrain.faces.empty()) {
-    inputs.push_back({"terrain", scenario.terrain.path, hash_of(world.terrain)});
+    inputs.push_back(mesh_input("terrain", scenario.terrain.path, world.terrain));
   }
   return inputs;
 }

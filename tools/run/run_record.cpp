@@ -12,7 +12,6 @@
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/trajectory_tum.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
@@ -53,11 +52,10 @@ void read_views(const RunFiles& files, RunRecord& record) {
                                        record.views.size(), command_to_finish(record.folder)));
 }
 
-/// Throws BadInput when iterations.csv holds fewer or more views than the run ended with.
-void need_all_views(const RunRecord& record) {
+/// Throws BadInput when iterations.csv holds other views than the run ended with.
+void need_views_of_run(const RunRecord& record, const fs::path& csv, const RunSummary& summary) {
   const auto ended_with = static_cast<std::size_t>(record.figures->iterations);
-  const fs::path csv = record.folder / kIterationsFile;
-  if (record.views.size() == ended_with || !fs::exists(csv)) return;
+  if (record.views.size() == ended_with) return need_views_of_summary(csv, summary, record.views);
   throw BadInput(fmt::format(
       "{}: holds {} views, and the run of summary.json has {}: damaged, or "
       "files of two runs? {} flies it again",
@@ -77,10 +75,7 @@ void read_figures(const RunFiles& files, RunRecord& record) {
   const bool has_curve = files.find(kCoverageFile).has_value();
   if (summary.schema == kSummarySchema && has_curve) {
     record.figures = read_run_figures(record.folder);
-    need_all_views(record);
-    if (const auto csv = files.find(kIterationsFile)) {
-      need_views_of_summary(*csv, summary, record.views);
-    }
+    if (const auto csv = files.find(kIterationsFile)) need_views_of_run(record, *csv, summary);
     return;
   }
   record.missing.push_back(fmt::format(
@@ -173,28 +168,19 @@ std::string run_title(const RunRecord& record) {
 }
 
 std::string run_detail(const RunRecord& record) {
-  const auto views =
-      record.figures ? static_cast<std::size_t>(record.figures->iterations) : record.views.size();
-  std::string detail = counted(views, "view");
-  if (record.figures)
-    detail +=
-        fmt::format(", {} m straight from one to the next", grouped(record.figures->straight_m, 1));
-  if (!record.views.empty())
+  const std::optional<RunFigures>& figures = record.figures;
+  std::string detail = counted(
+      figures ? static_cast<std::size_t>(figures->iterations) : record.views.size(), "view");
+  if (figures) {
+    detail += fmt::format(", {} m straight from one to the next", grouped(figures->straight_m, 1));
+  }
+  if (!record.views.empty()) {
     detail += fmt::format(", {} m flown", grouped(record.views.back().flown_m, 1));
-  if (record.figures) {
-    detail +=
-        fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * record.figures->coverage_final[0]);
+  }
+  if (figures) {
+    detail += fmt::format(", coverage {:.1f} % at 0.05 m", 100.0 * figures->coverage_final[0]);
   }
   return detail;
-}
-
-void need_path(const RunRecord& record) {
-  if (!record.path.empty()) return;
-  const std::string file = (record.folder / kTrajectoryFile).string();
-  for (const std::string& sentence : record.missing) {
-    if (sentence.find(file) != std::string::npos) throw BadInput(sentence);
-  }
-  throw BadInput(fmt::format("{}: is missing", file));
 }
 
 std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s) {
@@ -216,14 +202,6 @@ std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s) {
   T_world_body.translate(from + share * (to - from));
   T_world_body.rotate(turn.slerp(share, Eigen::Quaterniond(after->T_world_body.linear())));
   return T_world_body;
-}
-
-CameraModel camera_named(const RunRecord& record, std::string_view name) {
-  for (const CameraConfig& camera : record.scenario.cameras) {
-    if (camera.name == name) return make_camera_model(camera);
-  }
-  throw BadInput(fmt::format("{}: cameras.json names '{}', which scenario.yaml does not have",
-                             (record.folder / kFramesFolder).string(), name));
 }
 
 }  // namespace gnbv

@@ -35,6 +35,11 @@ std::string to_string(const TextPlace& place) {
   return fmt::format("{}:{}", place.file.string(), place.line);
 }
 
+void for_each_line(std::string_view text, const std::filesystem::path& file,
+                   const std::function<void(std::string_view, const TextPlace&)>& take, int first) {
+  for (int line = first; !text.empty(); ++line) take(next_part(text, '\n'), {file, line});
+}
+
 double to_number(std::string_view text, const TextPlace& place, std::string_view what) {
   const std::string_view t = trimmed(text);
   double value = 0.0;

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,6 +28,11 @@ struct TextPlace {
   int line;
 };
 std::string to_string(const TextPlace& place);
+
+/// Calls `take` with each line and its place; lines count from `first`.
+void for_each_line(std::string_view text, const std::filesystem::path& file,
+                   const std::function<void(std::string_view row, const TextPlace& place)>& take,
+                   int first = 1);
 
 /// The finite number that is all of the text. Throws BadInput naming place, `what` and text.
 double to_number(std::string_view text, const TextPlace& place, std::string_view what);

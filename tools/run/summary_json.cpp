@@ -1,7 +1,5 @@
 #include "tools/run/summary_json.hpp"
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/run_figures.hpp"
@@ -11,20 +9,13 @@
 #include "tools/run/coverage_csv.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
+#include "tools/run/score_fields.hpp"
 
 namespace gnbv {
 namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// The paper's sizes first.
-Json by_size(const std::array<double, 3>& coverage, std::span<const SizedCoverage> more,
-             double SizedCoverage::*share) {
-  Json json = {{"0.05", coverage[0]}, {"0.10", coverage[1]}, {"0.50", coverage[2]}};
-  for (const SizedCoverage& at : more) json[size_name(at.size_m)] = at.*share;
-  return json;
-}
 
 /// Mean coverage at 0.05 m over the run's own length; null for a run that has none.
 Json mean_over_own(const CoverageCurve& curve) {
@@ -53,50 +44,17 @@ Json effort_of(const MissionScore& score) {
   return all;
 }
 
-}  // namespace
-
 Json score_part(const MissionScore& score) {
-  Json at = Json::array();
-  for (const DistanceScore& d : score.distances.at) {
-    at.push_back({{"distance_m", d.distance_m},
-                  {"precision", d.precision},
-                  {"recall", d.recall},
-                  {"f", d.f}});
-  }
-  return {
-      {"coverage",
-       {{"profile", by_size(score.profile, score.more, &SizedCoverage::profile)},
-        {"final", by_size(score.final, score.more, &SizedCoverage::final)},
-        {"profile_raw_reference",
-         by_size(score.profile_raw, score.more, &SizedCoverage::profile_raw)},
-        {"final_raw_reference", by_size(score.final_raw, score.more, &SizedCoverage::final_raw)}}},
-      {"precision_recall", at},
-      {"accuracy_m", score.distances.accuracy_m},
-      {"completeness_m", score.distances.completeness_m},
-      {"chamfer_m", score.distances.chamfer_m},
-      {"density",
-       {{"voxel_m", score.density.voxel_m},
-        {"mean_points", score.density.mean_points},
-        {"variation", score.density.variation}}},
-      {"mean_coverage_over_own", mean_over_own(score.curve)},
-      {"ceiling_at_0.05", score.ceiling ? Json(*score.ceiling) : Json(nullptr)},
-      {"effort_to_reach", effort_of(score)},
-  };
+  Json json;
+  visit_score(
+      ScoreParts<false>{score.profile, score.final, score.profile_raw, score.final_raw, score.more,
+                        score.distances, score.density},
+      [&](const std::string& pointer, double value) { json[Json::json_pointer(pointer)] = value; });
+  json["mean_coverage_over_own"] = mean_over_own(score.curve);
+  json["ceiling_at_0.05"] = score.ceiling ? Json(*score.ceiling) : Json(nullptr);
+  json["effort_to_reach"] = effort_of(score);
+  return json;
 }
-
-std::string score_json(const MissionScore& score, bool is_run) {
-  Json json = score_part(score);
-  if (!is_run) {
-    for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
-      json.erase(key);
-    }
-    json["coverage"].erase("profile");
-    json["coverage"].erase("profile_raw_reference");
-  }
-  return json.dump(2);
-}
-
-namespace {
 
 Json symmetry_of(const Prediction& prediction) {
   const Symmetry& symmetry = prediction.symmetry;
@@ -112,8 +70,7 @@ Json symmetry_of(const Prediction& prediction) {
           {"predicted_voxels", prediction.predicted_voxels}};
 }
 
-/// Keys of earlier schemas that this one has under another name.
-constexpr std::array<std::string_view, 1> kRetiredKeys = {"auc"};
+constexpr std::string_view kRetiredKey = "auc";  // of schema 2: mean_coverage_over_own
 
 /// The summary with this score instead of the one it has, and this schema. `coverage` is where the
 /// score stands.
@@ -125,8 +82,7 @@ Json with_score(const Json& summary, const MissionScore& score) {
       out[key] = kSummarySchema;
     } else if (key == "coverage") {
       for (const auto& [score_key, score_value] : part.items()) out[score_key] = score_value;
-    } else if (std::find(kRetiredKeys.begin(), kRetiredKeys.end(), key) == kRetiredKeys.end() &&
-               !part.contains(key)) {
+    } else if (key != kRetiredKey && !part.contains(key)) {
       out[key] = value;
     }
   }
@@ -156,6 +112,18 @@ Json home_of(const std::optional<HomeFlight>& home) {
 }
 
 }  // namespace
+
+std::string score_json(const MissionScore& score, bool is_run) {
+  Json json = score_part(score);
+  if (!is_run) {
+    for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+      json.erase(key);
+    }
+    json["coverage"].erase("profile");
+    json["coverage"].erase("profile_raw_reference");
+  }
+  return json.dump(2);
+}
 
 std::string summary_json(const Scenario& scenario, const MissionResult& r,
                          const MissionScore& score, double total_wall_s) {

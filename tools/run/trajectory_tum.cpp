@@ -37,20 +37,17 @@ std::string trajectory_tum(std::span<const TrajectorySample> path_world) {
 
 std::vector<TrajectorySample> read_trajectory_tum(const std::filesystem::path& file,
                                                   const Box3& workspace_m) {
-  const std::string text = read_file(file);
-  std::string_view rest = text;
   std::vector<TrajectorySample> samples;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = trimmed(next_part(rest, '\n'));
-    if (row.empty() || row.front() == '#') continue;
-    const TextPlace place{file, line};
+  for_each_line(read_file(file), file, [&](std::string_view line, const TextPlace& place) {
+    const std::string_view row = trimmed(line);
+    if (row.empty() || row.front() == '#') return;
     const TrajectorySample sample = sample_of(row, place);
     if (!samples.empty() && sample.time_s < samples.back().time_s) {
       throw BadInput(fmt::format("{}: time {} s goes back", to_string(place), sample.time_s));
     }
     need_near_workspace(sample.T_world_body.translation(), workspace_m, place);
     samples.push_back(sample);
-  }
+  });
   if (samples.empty()) throw BadInput(fmt::format("{}: holds no pose", file.string()));
   return samples;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "scenarios/values.hpp"
 #include "sim/core/error.hpp"
@@ -15,25 +16,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostCoordinate_m = 1e6;  // as planner.routes.views allows
 constexpr double kMaxTilt_rad = deg_to_rad(45.0);
 const std::vector<std::string> kTumColumns = {"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
-constexpr std::array<std::string_view, 9> kRead = {"x",  "y",  "z",  "yaw_deg", "pitch_deg",
-                                                   "qx", "qy", "qz", "qw"};
 constexpr std::array<std::string_view, 5> kPassedOver = {"t", "view", "result", "reason",
                                                          "iteration"};
+/// What a view is made of, and how far from 0 each may be: x, y, z as planner.routes.views allows.
+const std::map<std::string, double, std::less<>> kLimits = {
+    {"x", 1e6},  {"y", 1e6},  {"z", 1e6},  {"yaw_deg", 360.0}, {"pitch_deg", 90.0},
+    {"qx", 1e9}, {"qy", 1e9}, {"qz", 1e9}, {"qw", 1e9}};
 
-bool is_one_of(std::span<const std::string_view> names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+bool is_passed_over(std::string_view name) {
+  return std::ranges::find(kPassedOver, name) != kPassedOver.end();
 }
 
 std::vector<std::string> cells_of(std::string_view row, bool is_csv) {
   std::vector<std::string> cells;
-  while (!row.empty()) {
-    const bool ends_in_comma = is_csv && row.back() == ',' && row.find(',') == row.size() - 1;
-    const std::string_view cell = trimmed(next_part(row, is_csv ? ',' : ' '));
+  for (const std::string_view part : split(row, is_csv ? ',' : ' ')) {
+    const std::string_view cell = trimmed(part);
     if (is_csv || !cell.empty()) cells.emplace_back(cell);
-    if (ends_in_comma) cells.emplace_back();
   }
   return cells;
 }
@@ -50,7 +50,7 @@ void need_columns(const std::vector<std::string>& columns, const TextPlace& plac
     return std::count(columns.begin(), columns.end(), name);
   };
   for (const std::string& column : columns) {
-    if (!is_one_of(kRead, column) && !is_one_of(kPassedOver, column)) {
+    if (!kLimits.contains(column) && !is_passed_over(column)) {
       fail(fmt::format("column `{}` is not known", column));
     }
     if (count(column) > 1) fail(fmt::format("column `{}` stands twice", column));
@@ -64,12 +64,12 @@ void need_columns(const std::vector<std::string>& columns, const TextPlace& plac
   if (count("yaw_deg") == 0 && turns != 4) fail("has only a part of qx,qy,qz,qw");
 }
 
-double to_number_within(std::string_view text, double limit, const TextPlace& place,
-                        std::string_view what) {
-  const double value = to_number(text, place, what);
+double to_number_within(std::string_view text, const TextPlace& place, const std::string& name) {
+  const double value = to_number(text, place, name);
+  const double limit = kLimits.at(name);
   if (std::abs(value) <= limit) return value;
   throw BadInput(fmt::format("{}: {} `{}` is out of range (allowed: from {} to {})",
-                             to_string(place), what, trimmed(text), -limit, limit));
+                             to_string(place), name, trimmed(text), -limit, limit));
 }
 
 /// As scenario.yaml will hold it, so that the same bits come back from there.
@@ -118,37 +118,33 @@ ViewPose ViewLines::read_row(std::string_view row) {
                                cells.size(), columns_.size(),
                                fmt::join(columns_, form_ == Form::csv ? "," : " ")));
   }
-  ViewPose view;
-  std::array<double, 7> pose{};  // x y z qx qy qz qw
-  bool is_quaternion = false;
+  std::map<std::string, double> of;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string& name = columns_[i];
-    if (form_ == Form::csv && is_one_of(kPassedOver, name)) continue;
-    const auto number = [&](double limit) {
-      return to_number_within(cells[i], limit, place, name);
-    };
-    if (name == "t") to_number(cells[i], place, name);
-    if (name == "yaw_deg") view.yaw_rad = deg_to_rad(number(360.0));
-    if (name == "pitch_deg") view.gimbal_pitch_rad = deg_to_rad(number(90.0));
-    if (name.size() == 1 && name != "t")
-      pose[std::string_view("xyz").find(name)] = number(kMostCoordinate_m);
-    if (name.front() != 'q') continue;
-    is_quaternion = true;
-    pose[3 + std::string_view("xyzw").find(name.back())] = to_number(cells[i], place, name);
+    if (kLimits.contains(name)) {
+      of[name] = to_number_within(cells[i], place, name);
+    } else if (form_ == Form::tum) {
+      to_number(cells[i], place, name);
+    }
   }
-  view.p_world_m = Vec3(pose[0], pose[1], pose[2]);
-  if (is_quaternion) view.yaw_rad = heading_rad(to_pose(pose, place), place);
+  ViewPose view{.p_world_m = Vec3(of["x"], of["y"], of["z"])};
+  view.gimbal_pitch_rad = deg_to_rad(of["pitch_deg"]);
+  if (of.contains("qx")) {
+    const std::array<double, 7> pose = {of["x"],  of["y"],  of["z"], of["qx"],
+                                        of["qy"], of["qz"], of["qw"]};
+    view.yaw_rad = heading_rad(to_pose(pose, place), place);
+  } else {
+    view.yaw_rad = deg_to_rad(of["yaw_deg"]);
+  }
   return view;
 }
 
 std::vector<ViewPose> read_user_views(const fs::path& file) {
-  const std::string text = whole_lines(file);
   ViewLines lines(file);
   std::vector<ViewPose> views;
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    if (const auto view = lines.read(next_part(rest, '\n'))) views.push_back(*view);
-  }
+  for_each_line(whole_lines(file), file, [&](std::string_view line, const TextPlace&) {
+    if (const auto view = lines.read(line)) views.push_back(*view);
+  });
   if (views.empty()) throw BadInput(fmt::format("{}: holds no view", file.string()));
   return views;
 }

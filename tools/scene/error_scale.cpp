@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tools/run/words.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 

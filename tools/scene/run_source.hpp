@@ -7,8 +7,8 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "tools/mission/replay.hpp"
-#include "tools/run/plan_jsonl.hpp"
 #include "tools/run/run_record.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/error_scale.hpp"
 
 namespace gnbv {

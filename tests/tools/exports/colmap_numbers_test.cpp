@@ -8,7 +8,7 @@
 #include "sim/core/file.hpp"
 #include "tests/support/export_text.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/exports/colmap.hpp"
+#include "tools/exports/formats.hpp"
 
 namespace gnbv {
 namespace {

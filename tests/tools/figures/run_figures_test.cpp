@@ -6,7 +6,7 @@
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/figures/figure_support.hpp"
-#include "tools/run/predictions_csv.hpp"
+#include "tools/run/tour_files.hpp"
 
 namespace gnbv {
 namespace {

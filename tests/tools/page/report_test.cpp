@@ -10,13 +10,13 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "tests/support/covered_record.hpp"
 #include "tests/support/made_frames.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/page/page_arrays.hpp"
 #include "tools/page/page_text.hpp"
-#include "tools/run/plan_jsonl.hpp"
-#include "tools/run/words.hpp"
+#include "tools/run/tour_files.hpp"
 #include "tools/scene/looks.hpp"
 
 namespace gnbv {

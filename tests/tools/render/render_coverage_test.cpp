@@ -6,10 +6,10 @@
 #include <array>
 
 #include "bench/score/surface_reference.hpp"
+#include "sim/core/text.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {

@@ -9,12 +9,12 @@
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/cloud_file.hpp"
-#include "tools/run/words.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {

@@ -4,18 +4,21 @@
 
 #include <limits>
 
-#include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
+#include "tests/support/fault.hpp"
+#include "tests/support/made_frames.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_record.hpp"
-#include "tools/run/words.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
+using test::fault_of;
+using test::says;
 
 class Record : public ::testing::Test {
  protected:
@@ -25,31 +28,20 @@ class Record : public ::testing::Test {
     write_file_atomically(temp_.path() / name, content);
   }
   void remove(const std::string& name) const { fs::remove_all(temp_.path() / name); }
-  void write_frames() const {
-    fs::create_directories(temp_.path() / "frames");
-    write("frames/cameras.json",
-          R"([{"name": "rgbd", "width_px": 640, "height_px": 480, "fx_px": 500.0, "fy_px": 510.0,
-               "cx_px": 320.0, "cy_px": 240.0, "depth_scale_m": 0.001}])");
-    write("frames/poses.csv",
-          "iteration,camera,time_s,x_m,y_m,z_m,qx,qy,qz,qw,rgb,depth\n"
-          "7,rgbd,12.5,1,2,3,0,0,1,0,0007_rgbd.rgb.png,0007_rgbd.depth.png\n");
-    write("frames/0007_rgbd.rgb.png", "");
-    write("frames/0007_rgbd.depth.png", "");
+  testing::AssertionResult refused(const std::string& words) const {
+    return says(fault_of([&] { read_run(temp_.path()); }), {words});
   }
-  // The message of the error that reading ends in.
-  template <typename Read>
-  std::string complaint(Read read) const {
-    try {
-      read(temp_.path());
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+  testing::AssertionResult refuses_cloud(const std::string& words) const {
+    return says(fault_of([&] { read_run_cloud(read_run(temp_.path())); }), {words});
   }
-  std::string run_complaint() const { return complaint(read_run); }
-  std::string frames_complaint() const { return complaint(read_frames); }
-  std::string cloud_complaint() const {
-    return complaint([](const fs::path& folder) { read_run_cloud(read_run(folder)); });
+  testing::AssertionResult refuses_frames(const std::string& words) const {
+    return says(fault_of([&] { read_frames(temp_.path()); }), {words});
+  }
+  std::vector<int> views_of_points() const {
+    const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
+    std::vector<int> views;
+    for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
+    return views;
   }
 
   TempFolder temp_;
@@ -70,25 +62,10 @@ TEST_F(Record, HoldsWhatTheFilesSay) {
   EXPECT_EQ(run_detail(record), "3 views, 0.0 m flown");
 }
 
-TEST_F(Record, EveryPointBelongsToTheViewThatBroughtIt) {
-  const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
-  std::vector<int> views;
-  for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) views.push_back(cloud.view_of(i));
-  EXPECT_EQ(views, (std::vector<int>{-1, -1, 0, 1, 1, 2}));
-}
-
-TEST_F(Record, PointsAfterTheLastViewBelongToNone) {
+TEST_F(Record, EveryPointBelongsToTheViewThatBroughtItAndThoseAfterTheLastToNone) {
+  EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 1, 1, 2}));
   const std::string views = read_file(temp_.path() / "iterations.csv");
-  const auto views_of_points = [&] {
-    const RunCloud cloud = read_run_cloud(read_run(temp_.path()));
-    std::vector<int> of_points;
-    for (std::size_t i = 0; i < cloud.points_world_m.size(); ++i) {
-      of_points.push_back(cloud.view_of(i));
-    }
-    return of_points;
-  };
-  const std::size_t last_row = views.rfind('\n', views.size() - 2) + 1;
-  write("iterations.csv", views.substr(0, last_row));
+  write("iterations.csv", views.substr(0, views.rfind('\n', views.size() - 2) + 1));
   EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 1, 1, 2}));
   write("iterations.csv", views.substr(0, views.find('\n') + 1));
   EXPECT_EQ(views_of_points(), (std::vector<int>{-1, -1, 0, 0, 0, 0}));
@@ -101,11 +78,10 @@ TEST_F(Record, CommandsAreWordsForAShell) {
   fs::remove(folder / "iterations.csv");
   const RunRecord record = read_run(folder);
   ASSERT_EQ(record.missing.size(), 2U);
-  for (const std::string& sentence : record.missing) {
-    EXPECT_NE(sentence.find("run/scenario.yaml' --resume --out '"), std::string::npos) << sentence;
+  for (const std::string& missing : record.missing) {
+    EXPECT_TRUE(says(missing, {"run/scenario.yaml' --resume --out '"}));
   }
-  EXPECT_NE(command_to_fly_again(folder, "--frames").find("my run/scenario.yaml' --frames"),
-            std::string::npos);
+  EXPECT_TRUE(says(command_to_fly_again(folder, "--frames"), {"my run/scenario.yaml' --frames"}));
 }
 
 TEST(Words, NamesOfOursAreReadAsWordsAndThoseOfUsersStay) {
@@ -172,17 +148,15 @@ TEST_F(Record, WhatIsMissingIsNamedWithTheCommandThatMakesIt) {
   EXPECT_EQ(record.views.size(), 3U);  // of the journal
   EXPECT_FALSE(record.figures.has_value());
   ASSERT_EQ(record.missing.size(), 3U);
-  for (const std::string& sentence : record.missing) {
-    EXPECT_NE(sentence.find("gnbv run"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("--resume"), std::string::npos) << sentence;
-  }
+  for (const std::string& missing : record.missing)
+    EXPECT_TRUE(says(missing, {"gnbv run", "--resume"}));
   fs::rename(temp_.path() / "iterations.csv.part", temp_.path() / "iterations.csv");
   write("summary.json", R"({"schema": 1, "profile_end_s": 2.0, "views_begin_s": 2.5})");
   const RunRecord older = read_run(temp_.path());
   EXPECT_EQ(older.views_begin_s, 2.5);
-  EXPECT_NE(older.missing.back().find("--update"), std::string::npos);
+  EXPECT_TRUE(says(older.missing.back(), {"--update"}));
   remove("scenario.yaml");
-  EXPECT_NE(run_complaint().find("gnbv run SCENARIO"), std::string::npos) << run_complaint();
+  EXPECT_TRUE(refused("gnbv run SCENARIO"));
 }
 
 TEST_F(Record, WhoGoesOnWithARunKeepsWhatItKept) {
@@ -198,39 +172,19 @@ TEST_F(Record, WhoGoesOnWithARunKeepsWhatItKept) {
   EXPECT_TRUE(has("--candidates`") && !has("--frames")) << command();
 }
 
-TEST_F(Record, DamagedFilesAreNamedWithTheLine) {
-  const auto expect_complaint = [&](const std::string& path, const std::string& words) {
-    write("trajectory.tum", path);
-    EXPECT_NE(run_complaint().find(words), std::string::npos) << run_complaint();
-  };
-  expect_complaint("0 1 2 3 0 0 0 1\n1 1 2 three 0 0 0 1\n", "trajectory.tum:2");
-  expect_complaint("0 1 2 3 0 0 0\n", "trajectory.tum:1");
-  expect_complaint("0 1 2 3 0 0 0 1\n1 nan 2 3 0 0 0 1\n", "trajectory.tum:2");
-  expect_complaint("1 1 2 3 0 0 0 1\n0 1 2 3 0 0 0 1\n", "goes back");
-  expect_complaint("0 1 2 3 0 0 0 2\n", "unit quaternion");
-  expect_complaint("", "holds no pose");
-  expect_complaint("0 1 2 3 0 0 0 1\n1 1e30 2 3 0 0 0 1\n",
-                   "trajectory.tum:2: stands at 1e+30 2 3");
-  write("trajectory.tum", "0 1 2 3 0 0 0 1\n");
-  EXPECT_EQ(run_complaint(), "");
+TEST_F(Record, WhatIsNoRunAndAPlaceThatIsNoneAreNamed) {
   write("summary.json", "{\"schema\": ");
-  EXPECT_NE(run_complaint().find("summary.json"), std::string::npos) << run_complaint();
+  EXPECT_TRUE(refused("summary.json"));
   remove("summary.json");
-  write("iterations.csv", "iteration,x,y,yaw\n");
-  EXPECT_NE(run_complaint().find("iterations.csv:1"), std::string::npos) << run_complaint();
   write("iterations.csv", iterations_csv(std::vector{made_view(0, {Vec3(0, -1e30, 1), 0.0}, 3)}));
-  EXPECT_NE(run_complaint().find("iterations.csv:2: stands at 0 -1e+30 1"), std::string::npos)
-      << run_complaint();
-  EXPECT_NE(complaint([](const fs::path&) { read_run(""); }).find("RUN: is empty"),
-            std::string::npos);
-}
-
-TEST_F(Record, APointThatIsNoneIsNamedWithItsFile) {
+  EXPECT_TRUE(refused("iterations.csv:2: stands at 0 -1e+30 1"));
+  EXPECT_TRUE(says(fault_of([] { read_run(""); }), {"RUN: is empty"}));
   for (const float x : {std::numeric_limits<float>::quiet_NaN(), 1e30F}) {
+    write_made_run(temp_.path());
     std::vector<Vec3f> points(6, Vec3f(0, 0, 1));
     points[4].x() = x;
     write_cloud_ply(points, temp_.path() / "cloud.ply");
-    EXPECT_NE(cloud_complaint().find("cloud.ply: point 4"), std::string::npos) << cloud_complaint();
+    EXPECT_TRUE(refuses_cloud("cloud.ply: point 4"));
   }
 }
 
@@ -252,71 +206,44 @@ TEST_F(Record, BetweenSamplesThePoseIsInterpolated) {
 
 TEST_F(Record, ACloudOfAnotherRunIsRefused) {
   write_cloud_ply(std::vector<Vec3f>(4, Vec3f(0, 0, 1)), temp_.path() / "cloud.ply");
-  EXPECT_NE(cloud_complaint().find("files of two runs"), std::string::npos) << cloud_complaint();
+  EXPECT_TRUE(refuses_cloud("files of two runs"));
   remove("cloud.ply");
-  EXPECT_NE(cloud_complaint().find("--resume"), std::string::npos) << cloud_complaint();
+  EXPECT_TRUE(refuses_cloud("--resume"));
 }
 
 TEST_F(Record, ImagesThatAreNotOfTheirCamerasSizeAreRefused) {
-  write_frames();
+  write_made_frames(temp_.path());
   const FrameRecord frames = read_frames(temp_.path());
-  const auto said_of = [&](const auto& image, const fs::path& file, const auto& read) {
+  const auto fault = [&](const auto& image, const fs::path& file, const auto& read) {
     write_png(image, file);
-    return complaint([&](const fs::path&) { read(frames, 0); });
+    return fault_of([&] { read(frames, 0); });
   };
-  Image colour{.width_px = 640, .height_px = 480, .rgb = std::vector<std::uint8_t>(3 * 640 * 480)};
-  GreyImage16 depth{640, 480, std::vector<std::uint16_t>(640 * 480)};
   const RecordedFrame& frame = frames.frames[0];
-  EXPECT_EQ(said_of(colour, frame.colour, read_colour), "");
-  EXPECT_EQ(said_of(depth, frame.depth, read_depth), "");
-  std::swap(colour.width_px, colour.height_px);
-  std::swap(depth.width_px, depth.height_px);
+  const Image colour{48, 64, std::vector<std::uint8_t>(3 * 64 * 48)};
+  const GreyImage16 depth{48, 64, std::vector<std::uint16_t>(64 * 48)};
+  EXPECT_EQ(read_colour(frames, 0).width_px + read_depth(frames, 0).width_px, 128);
   for (const std::string& said :
-       {said_of(colour, frame.colour, read_colour), said_of(depth, frame.depth, read_depth)}) {
-    EXPECT_NE(said.find("0007_rgbd."), std::string::npos) << said;
-    EXPECT_NE(said.find("480 x 640 px, but cameras.json says 640 x 480 px"), std::string::npos)
-        << said;
+       {fault(colour, frame.colour, read_colour), fault(depth, frame.depth, read_depth)}) {
+    EXPECT_TRUE(says(said, {"0.png", "48 x 64 px, but cameras.json says 64 x 48 px"}));
   }
 }
 
 TEST_F(Record, FramesHoldPosesAndIntrinsics) {
   EXPECT_FALSE(has_frames(temp_.path()));
-  EXPECT_NE(frames_complaint().find("--frames"), std::string::npos) << frames_complaint();
-  for (const char* const name : {"poses.csv", "cameras.json"}) {
-    write_frames();
-    remove(std::string("frames/") + name);
+  EXPECT_TRUE(refuses_frames("--frames"));
+  for (const std::string name : {"poses.csv", "cameras.json"}) {
+    write_made_frames(temp_.path());
+    remove("frames/" + name);
     EXPECT_TRUE(has_frames(temp_.path()));
-    EXPECT_NE(frames_complaint().find(std::string(name) + ": is missing; `gnbv run"),
-              std::string::npos)
-        << frames_complaint();
+    EXPECT_TRUE(refuses_frames(name + ": is missing; `gnbv run"));
   }
-  write_frames();
+  write_made_frames(temp_.path());
   const FrameRecord record = read_frames(temp_.path());
-  ASSERT_EQ(record.frames.size(), 1U);
-  EXPECT_EQ(record.cameras[0].fy_px, 510.0);
-  EXPECT_EQ(record.frames[0].iteration, 7);
-  EXPECT_EQ(record.frames[0].T_world_camera * Vec3(1, 0, 0), Vec3(0, 2, 3));
-  EXPECT_EQ(record.frames[0].depth, temp_.path() / "frames/0007_rgbd.depth.png");
-}
-
-TEST_F(Record, DamagedFramesAreNamedWithTheLine) {
-  write_frames();
-  const std::string good = read_file(temp_.path() / "frames/poses.csv");
-  const auto expect_complaint = [&](std::string from, const std::string& to,
-                                    const std::string& words) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    write("frames/poses.csv", text);
-    EXPECT_NE(frames_complaint().find(words), std::string::npos) << frames_complaint();
-  };
-  expect_complaint("7,rgbd", "7,other", "poses.csv:2");
-  expect_complaint("0,0,1,0", "0,0,1,1", "unit quaternion");
-  expect_complaint("12.5", "soon", "poses.csv:2");
-  expect_complaint("0007_rgbd.rgb", "../0007_rgbd.rgb", "no image");
-  expect_complaint("iteration,", "view,", "poses.csv:1");
-  write("frames/poses.csv", good);
-  write("frames/cameras.json", R"([{"name": "rgbd"}])");
-  EXPECT_NE(frames_complaint().find("cameras.json"), std::string::npos) << frames_complaint();
+  ASSERT_EQ(record.frames.size(), 3U);
+  EXPECT_EQ(record.cameras[0].cy_px, 24.0);
+  EXPECT_EQ(record.frames[2].iteration, 2);
+  EXPECT_EQ(record.frames[2].T_world_camera * Vec3(1, 0, 0), Vec3(5, 4, 2));
+  EXPECT_EQ(record.frames[2].depth, temp_.path() / "frames/depth_2.png");
 }
 
 }  // namespace

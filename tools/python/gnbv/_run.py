@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 from functools import cached_property
@@ -68,7 +67,7 @@ class Run:
     @cached_property
     def cloud(self) -> npt.NDArray[np.float32]:
         """The model: points x 3, metres, world ENU."""
-        return read_ply(self.folder / "cloud.ply")
+        return _core.read_cloud(os.fspath(self.folder / "cloud.ply"))
 
     @cached_property
     def map(self) -> Array:
@@ -134,41 +133,14 @@ def load(folder: Union[str, os.PathLike[str]]) -> Run:
 
 
 def _csv(file: Path) -> Array:
+    def kind(name: str, cells: list[str]) -> str:
+        if name in _TEXT:
+            return f"U{max(map(len, cells), default=0) or 1}"
+        return "i8" if name in _COUNTS else "f8"
+
     try:
-        with file.open(newline="", encoding="utf-8") as text:
-            header, *rows = list(csv.reader(text))
+        names, *rows = (line.split(",") for line in file.read_text(encoding="utf-8").splitlines())
+        columns = [(name, kind(name, cells)) for name, *cells in zip(names, *rows, strict=True)]
+        return np.array([tuple(row) for row in rows], columns)
     except (OSError, ValueError) as error:
         raise BadInput(f"{file}: cannot be read: {error}") from error
-    columns = []
-    for i, name in enumerate(header):
-        longest = max((len(row[i]) for row in rows if i < len(row)), default=0)
-        width = f"U{max(1, longest)}"
-        columns.append((name, width if name in _TEXT else "i8" if name in _COUNTS else "f8"))
-    out = np.empty(len(rows), dtype=columns)
-    for line, row in enumerate(rows, start=2):
-        try:
-            out[line - 2] = tuple(row)
-        except ValueError as error:
-            raise BadInput(f"{file}:{line}: {error}") from error
-    return out
-
-
-def _bytes_of(file: Path) -> bytes:
-    try:
-        return file.read_bytes()
-    except OSError as error:
-        raise BadInput(f"{file}: {error.strerror}") from error
-
-
-def read_ply(file: Path) -> npt.NDArray[np.float32]:
-    """The vertices of one of gnbv's own .ply files: rows x 3, m."""
-    head, found, body = _bytes_of(file).partition(b"end_header\n")
-    kinds = {b"float": "<f4", b"uchar": "u1", b"int": "<i4"}
-    words = [line.split() for line in head.splitlines()]
-    fields = [(w[2].decode(), kinds.get(w[1], "")) for w in words if w[:1] == [b"property"]]
-    count = next((int(w[2]) for w in words if w[:2] == [b"element", b"vertex"]), 0)
-    dtype = np.dtype(fields) if all(kind for _, kind in fields) else np.dtype([])
-    if not found or dtype.itemsize * count != len(body):
-        raise BadInput(f"{file}: is no cloud of gnbv's, or cut short")
-    points = np.frombuffer(body, dtype)
-    return np.stack([points["x"], points["y"], points["z"]], axis=1)

@@ -273,9 +273,13 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
                 episode.begin(int(self._randoms[i].integers(2**31)))
             else:
                 episode.act(actions[i])
-        results = [
-            (*_opened(e.begun()),) if again[i] else e.result() for i, e in enumerate(self._episodes)
-        ]
+        results = []
+        for i, episode in enumerate(self._episodes):
+            if again[i]:
+                first, info = episode.begun()
+                results.append((first, 0.0, False, False, info))
+            else:
+                results.append(episode.result())
         seen, rewards, terminated, truncated, infos = zip(*results, strict=True)
         ended, cut = np.array(terminated), np.array(truncated)
         self._over = ended | cut
@@ -293,12 +297,6 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
     def close_extras(self, **kwargs: Any) -> None:
         for episode in self._episodes:
             episode.close()
-
-
-def _opened(
-    begun: tuple[Observation, dict[str, Any]],
-) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-    return begun[0], 0.0, False, False, begun[1]
 
 
 for _name, _scenario in SCENARIOS.items():

@@ -37,15 +37,11 @@ TEX = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciici
 def style(scale: float = 1.0, font: str = "") -> Any:
     """matplotlib's settings: letters of 7.5 points in 3.5 inches, files without a date."""
     small, line = 7.5 * scale, 0.5 * scale
-    settings: Data = {
-        f"{of}.{key}": 1.5 * scale for of in ("xtick", "ytick") for key in ["major.pad"]
-    }
-    settings |= {f"{of}.labelcolor": "#3a424d" for of in ("xtick", "ytick")}
-    settings |= {f"{of}.major.size": 2.0 * scale for of in ("xtick", "ytick")}
-    settings |= {f"{of}.major.width": line for of in ("xtick", "ytick")}
-    settings |= {f"{of}.color": GREY for of in ("xtick", "ytick")}
-    sizes = ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize")
-    settings |= {key: small for key in (*sizes, "xtick.labelsize", "ytick.labelsize")}
+    tick = {"color": GREY, "labelcolor": "#3a424d", "labelsize": small}
+    tick |= {"major.pad": 1.5 * scale, "major.size": 2.0 * scale, "major.width": line}
+    settings: Data = {f"{of}.{key}": tick[key] for of in ("xtick", "ytick") for key in tick}
+    for sized in ("font.size", "axes.titlesize", "axes.labelsize", "legend.fontsize"):
+        settings[sized] = small
     return settings | {
         "font.family": [font, "DejaVu Sans"] if font else ["DejaVu Sans"],
         "text.color": INK,

@@ -1,6 +1,4 @@
-#include "tools/run/plan_jsonl.hpp"
-
-#include <fmt/format.h>
+#include "tools/run/tour_files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,27 +26,28 @@ constexpr double kSameAngle_rad = 1e-3;
 constexpr std::array<PatchSource, kPatchSources> kSources = {
     PatchSource::sampled, PatchSource::extrapolated, PatchSource::opposite, PatchSource::boundary};
 
+constexpr std::string_view kPredictionsHeader =
+    "iteration,source,looks,incidence_deg,patches,missing,promised,found";
+
 std::string pose_json(const ViewPose& view) {
   const Vec3& p_m = view.p_world_m;
-  std::string json = fmt::format(R"({{"x_m":{:.4f},"y_m":{:.4f},"z_m":{:.4f},"yaw_rad":{:.5f})",
-                                 p_m.x(), p_m.y(), p_m.z(), view.yaw_rad);
-  if (view.gimbal_pitch_rad != 0.0) {
-    json += fmt::format(R"(,"gimbal_pitch_rad":{:.5f})", view.gimbal_pitch_rad);
-  }
-  return json + "}";
+  const std::string pitch =
+      view.gimbal_pitch_rad == 0.0
+          ? ""
+          : fmt::format(R"(,"gimbal_pitch_rad":{:.5f})", view.gimbal_pitch_rad);
+  return fmt::format(R"({{"x_m":{:.4f},"y_m":{:.4f},"z_m":{:.4f},"yaw_rad":{:.5f}{}}})", p_m.x(),
+                     p_m.y(), p_m.z(), view.yaw_rad, pitch);
 }
 
 std::string cubes_json(const TourPlan& plan, PatchSource source) {
-  std::string json = fmt::format(R"("{}":[)", name_of(source));
-  const char* separator = "";
+  std::vector<std::string> cubes;
   for (const PatchCube& cube : plan.cubes) {
     if (cube.source != source) continue;
     const Vec3& p_m = cube.p_world_m;
-    json += fmt::format("{}[{:.2f},{:.2f},{:.2f},{:.1f}]", separator, p_m.x(), p_m.y(), p_m.z(),
-                        cube.expected);
-    separator = ",";
+    cubes.push_back(
+        fmt::format("[{:.2f},{:.2f},{:.2f},{:.1f}]", p_m.x(), p_m.y(), p_m.z(), cube.expected));
   }
-  return json + "]";
+  return fmt::format(R"("{}":[{}])", name_of(source), fmt::join(cubes, ","));
 }
 
 Vec3 checked_place_m(const Vec3& p_m, const RunRecord& record, const TextPlace& place) {
@@ -71,12 +70,11 @@ MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace
   made.plan.cube_m = json.at("cube_m");
   for (const PatchSource source : kSources) {
     for (const Json& cube : json.at("cubes").at(std::string(name_of(source)))) {
-      const auto numbers = cube.get<std::array<double, 4>>();
-      if (numbers[3] < 0.0) {
-        throw BadInput(fmt::format("{}: a cube of {} voxels", to_string(place), numbers[3]));
+      const auto [x, y, z, expected] = cube.get<std::array<double, 4>>();
+      if (expected < 0.0) {
+        throw BadInput(fmt::format("{}: a cube of {} voxels", to_string(place), expected));
       }
-      const Vec3 p_m(numbers[0], numbers[1], numbers[2]);
-      made.plan.cubes.push_back({source, checked_place_m(p_m, record, place), numbers[3]});
+      made.plan.cubes.push_back({source, checked_place_m({x, y, z}, record, place), expected});
     }
   }
   return made;
@@ -93,33 +91,58 @@ bool is_planned_view(const ViewPose& a, const ViewPose& b) {
          std::abs(a.gimbal_pitch_rad - b.gimbal_pitch_rad) < kSameAngle_rad;
 }
 
+/// The number of what equals the value; throws BadInput when none does.
+template <typename Values, typename Value>
+std::size_t index_in(const Values& values, const Value& value, const TextPlace& place,
+                     const char* what) {
+  const auto at = std::ranges::find(values, value);
+  if (at != values.end()) return static_cast<std::size_t>(at - values.begin());
+  throw BadInput(fmt::format("{}: '{}' is no {}", to_string(place), value, what));
+}
+
+ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
+  const std::vector<std::string_view> cells = split(row, ',');
+  if (cells.size() != split(kPredictionsHeader, ',').size()) {
+    throw BadInput(
+        fmt::format("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader));
+  }
+  std::array<std::string_view, kPatchSources> sources;
+  std::ranges::transform(kSources, sources.begin(), [](PatchSource of) { return name_of(of); });
+  GainOutcome gain;
+  gain.source = kSources[index_in(sources, cells[1], place, "source of patches")];
+  gain.observations = static_cast<std::size_t>(to_count(cells[2], place, "looks"));
+  if (gain.observations >= kObservationBins) {
+    throw BadInput(fmt::format("{}: looks {} must be less than {}", to_string(place),
+                               gain.observations, kObservationBins));
+  }
+  gain.incidence = index_in(kIncidenceFrom_deg, to_count(cells[3], place, "incidence_deg"), place,
+                            "beginning of a bin of incidence");
+  gain.patches = to_count(cells[4], place, "patches");
+  gain.missing = to_number(cells[5], place, "missing");
+  gain.predicted = to_number(cells[6], place, "promised");
+  gain.found = to_number(cells[7], place, "found");
+  return {static_cast<std::size_t>(to_count(cells[0], place, "iteration")), gain};
+}
+
 }  // namespace
 
 std::string plan_jsonl(std::span<const MadePlan> plans) {
   std::string lines;
   for (const auto& [iteration, plan] : plans) {
-    lines += fmt::format(R"({{"iteration":{},"tour":[)", iteration);
-    const char* separator = "";
-    for (const ViewPose& view : plan.views) {
-      lines += separator + pose_json(view);
-      separator = ",";
-    }
-    lines += fmt::format(R"(],"cube_m":{},"cubes":{{)", plan.cube_m);
-    separator = "";
-    for (const PatchSource source : kSources) {
-      lines += separator + cubes_json(plan, source);
-      separator = ",";
-    }
-    lines += "}}\n";
+    std::vector<std::string> views, cubes;
+    for (const ViewPose& view : plan.views) views.push_back(pose_json(view));
+    for (const PatchSource source : kSources) cubes.push_back(cubes_json(plan, source));
+    lines += fmt::format(R"({{"iteration":{},"tour":[{}],"cube_m":{},"cubes":{{{}}}}})", iteration,
+                         fmt::join(views, ","), plan.cube_m, fmt::join(cubes, ","));
+    lines += '\n';
   }
   return lines;
 }
 
 std::vector<MadePlan> read_plans(const RunRecord& record) {
-  const std::string& utility = record.scenario.planner.utility.name;
   if (!traits_of(record.scenario.planner).makes_tours) {
     throw BadInput(fmt::format("{}: was flown by {}, which plans no tour; {} flies one",
-                               record.folder.string(), utility,
+                               record.folder.string(), record.scenario.planner.utility.name,
                                command_to_fly_again(record.folder, "--utility tour")));
   }
   const fs::path path = record.folder / kPlanFile;
@@ -127,23 +150,20 @@ std::vector<MadePlan> read_plans(const RunRecord& record) {
     throw BadInput(
         fmt::format("{}: is missing; {} writes it", path.string(), command_to_write_plans(record)));
   }
-  const std::string text = read_file(path);
-  std::string_view rest = text;
   std::vector<MadePlan> plans;
-  for (int line = 1; !rest.empty(); ++line) {
-    const TextPlace place{path, line};
-    const std::string_view row = next_part(rest, '\n');
+  for_each_line(read_file(path), path, [&](std::string_view row, const TextPlace& place) {
+    const std::size_t before = plans.empty() ? 0 : plans.back().iteration;
     try {
       plans.push_back(made_plan_of(Json::parse(row), record, place));
     } catch (const Json::exception& error) {
       throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), json_reason(error),
                                  command_to_write_plans(record)));
     }
-    if (plans.size() > 1 && plans.back().iteration <= plans[plans.size() - 2].iteration) {
+    if (plans.back().iteration <= before) {
       throw BadInput(fmt::format("{}: iteration {} comes after {}", to_string(place),
-                                 plans.back().iteration, plans[plans.size() - 2].iteration));
+                                 plans.back().iteration, before));
     }
-  }
+  });
   return plans;
 }
 
@@ -164,6 +184,28 @@ std::optional<StandingPlan> standing_plan(std::span<const MadePlan> plans, const
     if (at != tour.end()) standing.next = static_cast<std::size_t>(at - tour.begin()) + 1;
   }
   return standing;
+}
+
+std::string predictions_csv(std::span<const ViewOutcome> outcomes) {
+  std::string csv = fmt::format("{}\n", kPredictionsHeader);
+  for (const auto& [iteration, gain] : outcomes) {
+    csv += fmt::format("{},{},{},{},{},{:.1f},{:.1f},{:.1f}\n", iteration, name_of(gain.source),
+                       gain.observations, kIncidenceFrom_deg[gain.incidence], gain.patches,
+                       gain.missing, gain.predicted, gain.found);
+  }
+  return csv;
+}
+
+std::vector<ViewOutcome> read_predictions_csv(const fs::path& file) {
+  const std::string text = read_file(file);
+  std::string_view rest = text;
+  need_header(next_part(rest, '\n'), kPredictionsHeader, {file, 1});
+  std::vector<ViewOutcome> outcomes;
+  const auto take = [&](std::string_view row, const TextPlace& place) {
+    outcomes.push_back(outcome_of(row, place));
+  };
+  for_each_line(rest, file, take, 2);
+  return outcomes;
 }
 
 }  // namespace gnbv

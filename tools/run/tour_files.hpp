@@ -1,6 +1,8 @@
-// plan.jsonl: what a tour meant to do and what for, each time it was made anew.
+// What a tour meant to do and what for, each time it was made anew (plan.jsonl), and what each of
+// its views promised and brought (predictions.csv): how anybody can see where its metres go.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,5 +41,19 @@ struct StandingPlan {
 /// first of them. It refers to the plans.
 std::optional<StandingPlan> standing_plan(std::span<const MadePlan> plans, const RunRecord& record,
                                           std::size_t iteration);
+
+/// Of one view but the last; the look's kind and sums are GainOutcome's.
+struct ViewOutcome {
+  std::size_t iteration = 0;
+  GainOutcome gain;
+};
+
+/// Columns: iteration, source (sampled, extrapolated, opposite, frontier), looks before (4: or
+/// more), incidence_deg (lower bound of its bin), patches, and in small voxels of
+/// planner.tour.detail_m: missing (expected to lack a point), promised, found.
+std::string predictions_csv(std::span<const ViewOutcome> outcomes);
+
+/// Throws BadInput naming file and line of whatever is damaged.
+std::vector<ViewOutcome> read_predictions_csv(const std::filesystem::path& file);
 
 }  // namespace gnbv
