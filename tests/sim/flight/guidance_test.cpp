@@ -184,7 +184,8 @@ TEST(Guidance, FalseOrContactEndsTheLegAndOneOfMoreThanAnHourIsNotBegun) {
   EXPECT_EQ(flight->tick(), 123);
   const auto low = make_flight({}, World{}, {Vec3(0, 0, 1), 0.0}, 1);
   EXPECT_EQ(fly(*low, {Vec3(0, 0, -1), 0.0}, 1.0, nullptr, {}), LegEnd::collision);
-  EXPECT_THROW(fly(*low, {Vec3::Constant(std::nan("")), 0.0}, 2.0), BrokenInvariant);
+  const auto high = make_flight({}, World{}, kStart, 1);
+  EXPECT_THROW(fly(*high, {Vec3::Constant(std::nan("")), 0.0}, 2.0), BrokenInvariant);
 }
 
 TEST(Guidance, NeverArrivingEndsInATimeout) {

@@ -134,7 +134,7 @@ TEST(MavlinkBorder, EveryAxisHasABoundAndNoNumberIsInfinite) {
     numbers.push_back({&message.v_m_s[axis], 1e3F, 3 + axis});
     numbers.push_back({&message.a_m_s2[axis], 1e3F, 6 + axis});
   }
-  for (const std::uint8_t frame : {1, 8}) {
+  for (const std::uint8_t frame : {std::uint8_t{1}, std::uint8_t{8}}) {
     message = full_message(0, frame);
     for (const auto& [value, limit, bit] : numbers) {
       const bool is_no_position = frame == 8 && bit < 3;  // which it does not have
