@@ -59,6 +59,12 @@ std::vector<ProfileLeg> fly(const ProfilingConfig& config, const ViewPose& start
   return legs;
 }
 
+ProfilingConfig by(ProfilingMethod method) {
+  ProfilingConfig config;
+  config.method = method;
+  return config;
+}
+
 TEST(ProfileRoute, HandsOutTheBoundingBoxWhateverItSeesAndNothingWithoutAMethod) {
   const ViewPose start{Vec3(0, -20, 5), 0};
   const auto expected = bounding_box_profile(kBox, start);
@@ -68,7 +74,7 @@ TEST(ProfileRoute, HandsOutTheBoundingBoxWhateverItSeesAndNothingWithoutAMethod)
     EXPECT_EQ(legs[i].goal.p_world_m, expected[i].goal.p_world_m);
     EXPECT_EQ(legs[i].is_scan, expected[i].is_scan);
   }
-  EXPECT_TRUE(fly({.method = ProfilingMethod::none}, start, 3.0).empty());
+  EXPECT_TRUE(fly(by(ProfilingMethod::none), start, 3.0).empty());
 }
 
 TEST(CircularProfile, ClimbsAtFiveStationsOfTheCircleWhileSurfaceIsSeen) {
@@ -77,7 +83,7 @@ TEST(CircularProfile, ClimbsAtFiveStationsOfTheCircleWhileSurfaceIsSeen) {
     std::set<long> bearings_deg;
     double top_m = 0.0;
     Vec3 at_m(0, -20, 0.7);
-    for (const ProfileLeg& leg : fly({.method = ProfilingMethod::circular}, {at_m, 0}, surface_m)) {
+    for (const ProfileLeg& leg : fly(by(ProfilingMethod::circular), {at_m, 0}, surface_m)) {
       const Vec3& p = leg.goal.p_world_m;
       EXPECT_NEAR(p.head<2>().norm(), 20.0, 1e-9);  // the inscribed circle of the box
       // the chord of 18 degrees stays within 1.3 % of the radius

@@ -21,8 +21,12 @@ World walled_world(float x_m = 3.0F) {
   return world;
 }
 
-const std::vector<VehicleConfig> kBoth = {{.kind = VehicleKind::quadrotor},
-                                          {.kind = VehicleKind::ideal}};
+/// A quadrotor, and an ideal vehicle.
+const std::vector<VehicleConfig> kBoth = [] {
+  std::vector<VehicleConfig> both(2);
+  both[1].kind = VehicleKind::ideal;
+  return both;
+}();
 
 const ViewPose kStart = {Vec3(0, 0, 5), 0.3};
 

@@ -15,7 +15,11 @@ namespace {
 const GuidanceConfig kGuidance;
 const ViewPose kStart = {Vec3(0, 0, 10), 0.0};
 
-const VehicleConfig kIdeal{.kind = VehicleKind::ideal};
+const VehicleConfig kIdeal = [] {
+  VehicleConfig vehicle;
+  vehicle.kind = VehicleKind::ideal;
+  return vehicle;
+}();
 
 /// Flies as the vehicle's own guidance does.
 LegEnd fly(Flight& flight, const ViewPose& goal, double speed_m_s,

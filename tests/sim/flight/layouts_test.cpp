@@ -205,7 +205,9 @@ TEST(LegEnergy, IsWhatALegDrawsAndNeverLess) {
 }
 
 TEST(LegEnergy, OfATurnAloneOrAnIdealVehicleIsHoverPowerTimesItsTime) {
-  const VehicleConfig iris, ideal{.kind = VehicleKind::ideal};
+  const VehicleConfig iris;
+  VehicleConfig ideal;
+  ideal.kind = VehicleKind::ideal;
   const GuidanceConfig guidance;
   const auto hover_s = [&](const VehicleConfig& vehicle, const ViewPose& from, const ViewPose& to) {
     return leg_energy_wh(vehicle, guidance, from, to) * kJoulesPerWattHour / hover_power_w(vehicle);
