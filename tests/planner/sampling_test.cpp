@@ -9,7 +9,7 @@
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "sensors/camera_model.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,7 +8,7 @@
 #include "planner/core/planner.hpp"
 #include "planner/guided/guided_planner.hpp"
 #include "planner/planners.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -11,7 +11,7 @@
 #include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/map/random_points.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"

@@ -7,7 +7,7 @@
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
 #include "sim/core/rng.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/map/random_points.hpp"
 
 namespace gnbv {

@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "planner/tour/gains.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

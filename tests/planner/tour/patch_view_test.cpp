@@ -8,7 +8,7 @@
 #include "planner/tour/orienteering.hpp"
 #include "planner/tour/surface_cells.hpp"
 #include "sim/core/rng.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {

@@ -8,7 +8,7 @@
 #include "planner/tour/gains.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/support/fault.hpp"
 
 namespace gnbv {

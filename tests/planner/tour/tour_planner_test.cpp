@@ -11,7 +11,7 @@
 #include "planner/core/belief.hpp"
 #include "planner/tour/gains.hpp"
 #include "planner/tour/visibility_cache.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/wall_world.hpp"
 
 namespace gnbv {

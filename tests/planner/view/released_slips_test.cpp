@@ -8,7 +8,7 @@
 #include "planner/view/shadow_band.hpp"
 #include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
-#include "tests/planner/drawn_map.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/view/view_scene.hpp"
 
 namespace gnbv {
