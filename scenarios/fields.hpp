@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "scenarios/scenario.hpp"
-#include "sim/core/enum_names.hpp"
 
 namespace gnbv {
 
@@ -33,6 +32,13 @@ constexpr bool contains(const Range& range, double value) {
   return (range.is_min_open ? value > range.min : value >= range.min) &&
          (range.is_max_open ? value < range.max : value <= range.max);
 }
+
+/// What a value of an enumeration is called in the file.
+template <typename Enum>
+struct Named {
+  Enum value;
+  std::string_view name;
+};
 
 enum class FieldKind {
   plain,

@@ -1,15 +1,15 @@
 #include "sim/core/simd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
-#include "sim/core/enum_names.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr EnumNames<SimdLevel, 3> kLevels = {
-    {{SimdLevel::baseline, "baseline"}, {SimdLevel::avx2, "avx2"}, {SimdLevel::avx512, "avx512"}}};
+constexpr std::array<std::string_view, 3> kNames = {"baseline", "avx2", "avx512"};  // by level
 
 SimdLevel level_of_processor() {
 #ifdef __x86_64__
@@ -35,7 +35,8 @@ SimdLevel level_asked_for() {
   const char* const asked = std::getenv("GNBV_SIMD");
   if (asked == nullptr || *asked == '\0') return SimdLevel::avx512;
   if (asked == std::string_view("scalar")) return SimdLevel::baseline;  // its former name
-  if (const auto level = value_of(asked, kLevels)) return *level;
+  const auto* const name = std::ranges::find(kNames, std::string_view(asked));
+  if (name != kNames.end()) return static_cast<SimdLevel>(name - kNames.begin());
   throw BadInput(
       fmt::format("GNBV_SIMD={}: has to be baseline, avx2 or avx512 (or not to be set)", asked));
 }
@@ -47,7 +48,7 @@ SimdLevel& current_level() {
 
 }  // namespace
 
-std::string_view name_of(SimdLevel level) { return name_of(level, kLevels); }
+std::string_view name_of(SimdLevel level) { return kNames[static_cast<std::size_t>(level)]; }
 
 SimdLevel simd_level() { return current_level(); }
 

@@ -29,9 +29,4 @@ std::vector<Frame> Link::receive(std::span<const std::uint8_t> datagram, const A
   return frames;
 }
 
-void Link::count_oversized_datagram() {
-  ++counts_.datagrams;
-  ++counts_.oversized_datagrams;
-}
-
 }  // namespace gnbv::mavlink

@@ -74,7 +74,10 @@ class Link {
   std::vector<Frame> receive(std::span<const std::uint8_t> datagram, const Address& from,
                              double now_s, bool is_armed);
   /// A datagram that did not fit the receiver's buffer.
-  void count_oversized_datagram();
+  void count_oversized_datagram() {
+    ++counts_.datagrams;
+    ++counts_.oversized_datagrams;
+  }
 
   const std::optional<Address>& client() const { return client_; }
   const LinkCounts& counts() const { return counts_; }

@@ -10,8 +10,7 @@ namespace {
 
 TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
   const SmallPlanner planner;
-  Belief belief = wall_ahead(planner, everywhere);
-  sample_thinly(belief);
+  const Belief belief = thin_wall_ahead(planner);
   const Plan at_minimum = planner.plan(belief, still_history());
   ASSERT_TRUE(at_minimum.has_view());
   EXPECT_EQ(at_minimum.next().sampler, Sampler::fvs);
@@ -25,13 +24,9 @@ TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
 Belief wall_and_lone_frontier(const SmallPlanner& planner, const Vec3& lone_m,
                               const std::function<bool(const Vec3&)>& is_known) {
   Belief belief = wall_ahead(planner, is_known);
-  const GridGeometry& grid = belief.grid.geometry();
-  ScanUpdate update;
   for (int i = -2; i <= 2; ++i) {
-    update.occupied.push_back(
-        grid.index_of(grid.key_of(Vec3(lone_m.x(), lone_m.y(), lone_m.z() + 0.2 * i))));
+    hit(belief.grid, {voxel_at(belief.grid, lone_m + Vec3(0, 0, 0.2 * i))});
   }
-  for (int hits = 0; hits < 8; ++hits) belief.grid.apply(update);  // whatever was free there
   sample_thinly(belief);
   return belief;
 }
@@ -43,12 +38,8 @@ Belief shell_of_frontiers(const SmallPlanner& planner) {
     return distance_m > 2.9 && distance_m < 3.15;
   };
   Belief belief(planner.model());
-  ScanUpdate update;
-  const GridGeometry& grid = belief.grid.geometry();
-  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-    (in_shell(grid.center_m(grid.key_at(v))) ? update.occupied : update.free).push_back(v);
-  }
-  belief.grid.apply(update);
+  clear(belief.grid, voxels_where(belief.grid, everywhere));
+  hit(belief.grid, voxels_where(belief.grid, in_shell));
   sample_thinly(belief);
   return belief;
 }
@@ -158,9 +149,7 @@ TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
         c.utility.name = name;
         c.fvs.enabled = has_fvs;
       });
-      Belief belief = wall_ahead(planner, everywhere);
-      sample_thinly(belief);
-      const Plan plan = planner.plan(belief, still_history());
+      const Plan plan = planner.plan(thin_wall_ahead(planner), still_history());
       EXPECT_TRUE(plan.has_view()) << name;
       for (const Candidate& c : plan.candidates)
         EXPECT_EQ(c.sampler == Sampler::agvs, !has_fvs) << name;
@@ -211,9 +200,7 @@ TEST(FrontierViews, AreTriedWhereTheGridFindsNothing) {
   const auto plan_with = [](bool are_tried) {
     const SmallPlanner planner =
         model_of_grid_that_fails([&](FvsConfig& fvs) { fvs.when_grid_finds_nothing = are_tried; });
-    Belief belief = wall_ahead(planner, everywhere);
-    sample_thinly(belief);
-    return plan_turned_away(planner, belief);
+    return plan_turned_away(planner, thin_wall_ahead(planner));
   };
   EXPECT_FALSE(plan_with(false).has_view());
   const Plan plan = plan_with(true);
@@ -226,26 +213,18 @@ TEST(FrontierViews, AreTriedWhereTheGridFindsNothing) {
 
 TEST(FrontierViews, AreReachedOnAWayAroundBeforeTheMissionEnds) {
   const SmallPlanner planner = model_of_grid_that_fails([](FvsConfig&) {});
-  Belief belief = wall_ahead(planner, everywhere);
-  sample_thinly(belief);
-  const GridGeometry& grid = belief.grid.geometry();
-  ScanUpdate screen;  // with a gap far to the side, through which no straight way leads
-  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-    const Vec3 center_m = grid.center_m(grid.key_at(v));
-    if (std::fabs(center_m.x() + 4.1) < 0.05 && center_m.y() < 4.0) screen.occupied.push_back(v);
-  }
-  for (int hits = 0; hits < 8; ++hits) belief.grid.apply(screen);
+  Belief belief = thin_wall_ahead(planner);
+  // a screen with a gap far to the side, through which no straight way leads
+  fill(belief.grid, Box3(Vec3(-4.15, -8, 0), Vec3(-4.05, 4, 8)));
   const Plan plan = plan_turned_away(planner, belief);
   ASSERT_TRUE(plan.has_view());
   EXPECT_EQ(plan.next().sampler, Sampler::fvs);
   EXPECT_GT(plan.next().view.p_world_m.x(), -4.0);
   EXPECT_FALSE(plan.next().via_world_m.empty());
   // straight ways were tried first, and each was blocked
-  const std::size_t blocked = static_cast<std::size_t>(
-      std::count_if(plan.candidates.begin(), plan.candidates.end(), [](const Candidate& c) {
-        return c.sampler == Sampler::fvs && c.rejected == Rejection::path_blocked;
-      }));
-  EXPECT_GT(blocked, 0U);
+  EXPECT_TRUE(std::ranges::any_of(plan.candidates, [](const Candidate& c) {
+    return c.sampler == Sampler::fvs && c.rejected == Rejection::path_blocked;
+  }));
   for (std::size_t i = 0; i < plan.chosen.front(); ++i) {
     const Candidate& c = plan.candidates[i];
     EXPECT_TRUE(c.rejected || !c.via_world_m.empty());

@@ -18,17 +18,11 @@ std::optional<Decision> plan(const SmallPlanner& planner, const Belief& belief,
   return made.has_view() ? std::optional(made.next()) : std::nullopt;
 }
 
-TEST(PlanNextView, FindsNothingInAnUnknownWorld) {
-  const SmallPlanner planner;
-  EXPECT_FALSE(plan(planner, Belief(planner.model())));
-}
-
-TEST(PlanNextView, FindsNothingWhereNoSurfaceIsInSight) {
+TEST(PlanNextView, FindsNothingInAnUnknownWorldNorWhereNoSurfaceIsInSight) {
   const SmallPlanner planner;
   Belief belief(planner.model());
-  ScanUpdate update;
-  for (VoxelIndex v = 0; v < belief.grid.geometry().voxel_count(); ++v) update.free.push_back(v);
-  belief.grid.apply(update);
+  EXPECT_FALSE(plan(planner, belief));
+  clear(belief.grid, voxels_where(belief.grid, everywhere));
   EXPECT_FALSE(plan(planner, belief));
 }
 
@@ -46,26 +40,20 @@ TEST(PlanNextView, TakesLargerStepsWhereNoneNearbyIsValid) {
   EXPECT_EQ(decision->scale, 1.5);
 }
 
-TEST(PlanNextView, TriesTheFinestGridBeforeGivingUp) {
+TEST(PlanNextView, TriesTheFinestGridBeforeGivingUpAndLearnsNothingFromTheStart) {
   const SmallPlanner planner;
   // known within 2 m only, so that no view of the larger scales is valid
-  const Belief belief =
+  const Belief near =
       wall_ahead(planner, [](const Vec3& p_m) { return (p_m - kCurrent.p_world_m).norm() < 2.0; });
-  History history;
-  history.decisions.assign(3, {.view = {Vec3(3, 3, 3), 0}, .sampler = Sampler::agvs, .scale = 3.0});
-  const std::optional<Decision> decision = plan(planner, belief, history);
-  ASSERT_TRUE(decision);
-  EXPECT_EQ(decision->scale, 1.0);
-}
-
-TEST(PlanNextView, TheStartIsNoUtilityToLearnFrom) {
-  const SmallPlanner planner;
-  const Belief belief = wall_ahead(planner, everywhere);
-  History history;
-  history.decisions.assign(3, {.view = {Vec3(3, 3, 3), 0}, .sampler = Sampler::start});
-  EXPECT_EQ(plan(planner, belief, history)->scale, 1.0);
-  history.decisions.assign(3, {.view = {Vec3(3, 3, 3), 0}, .sampler = Sampler::agvs});
-  EXPECT_EQ(plan(planner, belief, history)->scale, 1.5);
+  const Belief all = wall_ahead(planner, everywhere);
+  const auto scale = [&](const Belief& belief, Sampler sampler, double last) {
+    History history;
+    history.decisions.assign(3, {.view = {Vec3(3, 3, 3), 0}, .sampler = sampler, .scale = last});
+    return plan(planner, belief, history)->scale;
+  };
+  EXPECT_EQ(scale(near, Sampler::agvs, 3.0), 1.0);
+  EXPECT_EQ(scale(all, Sampler::start, 1.0), 1.0);
+  EXPECT_EQ(scale(all, Sampler::agvs, 1.0), 1.5);
 }
 
 TEST(PlanNextView, UnknownSpaceIsRefusedUnlessAllowed) {
@@ -91,12 +79,7 @@ TEST(PlanNextView, GainsAreDiscountedAlongTheWayOrStraight) {
       c.utility.distance = distance;
     });
     Belief belief = wall_ahead(planner, everywhere);
-    const GridGeometry& grid = belief.grid.geometry();
-    ScanUpdate post;
-    for (double z_m = 0.1; z_m < 8.0; z_m += 0.2) {
-      post.occupied.push_back(grid.index_of(grid.key_of(Vec3(1.7, 0.1, z_m))));
-    }
-    for (int hits = 0; hits < 8; ++hits) belief.grid.apply(post);
+    fill(belief.grid, Box3(Vec3(1.6, 0, 0), Vec3(1.8, 0.2, 8)));
     return planner.plan(belief, {});
   };
   const Plan along_path = plan_with(DistanceAlong::path);

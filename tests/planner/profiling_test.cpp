@@ -21,37 +21,27 @@ double length_m(const std::vector<ProfileLeg>& legs) {
   return sum_m;
 }
 
-TEST(BoundingBoxProfile, HasThePapersLength) {
+TEST(BoundingBoxProfile, DescendsAtEightStationsFromTheNearestFacingTheCentre) {
   // released_code.md: 8 x 19.3 + 7 x sqrt(20^2 + 19.3^2) = 349 m without the approach
-  const auto legs = bounding_box_profile(kBox, {Vec3(0, -20, 5), 0});
-  ASSERT_EQ(legs.size(), 16U);
-  EXPECT_NEAR(length_m(legs), 8 * 19.3 + 7 * std::hypot(20.0, 19.3), 1e-9);
-}
-
-TEST(BoundingBoxProfile, StartsAtTheNearestStationAndVisitsAllEight) {
+  EXPECT_NEAR(length_m(bounding_box_profile(kBox, {Vec3(0, -20, 5), 0})),
+              8 * 19.3 + 7 * std::hypot(20.0, 19.3), 1e-9);
   for (const Vec3& start : {Vec3(0, -20, 5), Vec3(19, 18, 3), Vec3(-20, 3, 1)}) {
     const auto legs = bounding_box_profile(kBox, {start, 0});
+    ASSERT_EQ(legs.size(), 16U);
     std::set<std::tuple<double, double>> stations;
     double nearest_m = 1e9;
-    for (const ProfileLeg& leg : legs) {
-      stations.insert({leg.goal.p_world_m.x(), leg.goal.p_world_m.y()});
-      nearest_m = std::min(nearest_m, (leg.goal.p_world_m - start).head<2>().norm());
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const Vec3& p_m = legs[i].goal.p_world_m;
+      stations.insert({p_m.x(), p_m.y()});
+      nearest_m = std::min(nearest_m, (p_m - start).head<2>().norm());
+      EXPECT_EQ(legs[i].is_scan, i % 2 == 1);
+      EXPECT_EQ(p_m.z(), i % 2 == 1 ? 0.7 : 20.0);
+      const Vec3 forward = T_world_body(legs[i].goal).linear().col(0);
+      const Vec3 to_center = (kBox.center() - p_m).cwiseProduct(Vec3(1, 1, 0));
+      EXPECT_NEAR(forward.dot(to_center.normalized()), 1.0, 1e-12);
     }
     EXPECT_EQ(stations.size(), 8U);
     EXPECT_EQ((legs[0].goal.p_world_m - start).head<2>().norm(), nearest_m);
-  }
-}
-
-TEST(BoundingBoxProfile, DescendsFromTopToBottomFacingTheCentre) {
-  const auto legs = bounding_box_profile(kBox, {Vec3(3, -20, 5), 0});
-  for (std::size_t i = 0; i < legs.size(); i += 2) {
-    EXPECT_FALSE(legs[i].is_scan);
-    EXPECT_TRUE(legs[i + 1].is_scan);
-    EXPECT_EQ(legs[i].goal.p_world_m.z(), 20.0);
-    EXPECT_EQ(legs[i + 1].goal.p_world_m.z(), 0.7);
-    const Vec3 forward = T_world_body(legs[i].goal).linear().col(0);
-    const Vec3 to_center = (kBox.center() - legs[i].goal.p_world_m).cwiseProduct(Vec3(1, 1, 0));
-    EXPECT_NEAR(forward.dot(to_center.normalized()), 1.0, 1e-12);
   }
 }
 
@@ -69,7 +59,13 @@ std::vector<ProfileLeg> fly(const ProfilingConfig& config, const ViewPose& start
   return legs;
 }
 
-TEST(ProfileRoute, HandsOutTheBoundingBoxWhateverItSees) {
+ProfilingConfig by(ProfilingMethod method) {
+  ProfilingConfig config;
+  config.method = method;
+  return config;
+}
+
+TEST(ProfileRoute, HandsOutTheBoundingBoxWhateverItSeesAndNothingWithoutAMethod) {
   const ViewPose start{Vec3(0, -20, 5), 0};
   const auto expected = bounding_box_profile(kBox, start);
   const auto legs = fly({}, start, 3.0);
@@ -78,51 +74,30 @@ TEST(ProfileRoute, HandsOutTheBoundingBoxWhateverItSees) {
     EXPECT_EQ(legs[i].goal.p_world_m, expected[i].goal.p_world_m);
     EXPECT_EQ(legs[i].is_scan, expected[i].is_scan);
   }
+  EXPECT_TRUE(fly(by(ProfilingMethod::none), start, 3.0).empty());
 }
 
-TEST(ProfileRoute, IsOverAtOnceWithoutAMethod) {
-  ProfilingConfig config;
-  config.method = ProfilingMethod::none;
-  EXPECT_TRUE(fly(config, {Vec3(0, -20, 5), 0}, 3.0).empty());
-}
-
-TEST(CircularProfile, ClimbsAtFiveStationsWhileSurfaceIsSeen) {
-  ProfilingConfig config;
-  config.method = ProfilingMethod::circular;
-  const auto legs = fly(config, {Vec3(0, -20, 5), 0}, 8.0);
-  std::set<long> bearings_deg;
-  double top_m = 0.0;
-  for (const ProfileLeg& leg : legs) {
-    const Vec3& p = leg.goal.p_world_m;
-    EXPECT_NEAR(p.head<2>().norm(), 20.0, 1e-9);  // the inscribed circle of the box
-    const Vec3 forward = T_world_body(leg.goal).linear().col(0);
-    EXPECT_NEAR(forward.head<2>().dot(-p.head<2>()) / 20.0, 1.0, 1e-12);
-    top_m = std::max(top_m, p.z());
-    if (leg.is_scan) bearings_deg.insert(std::lround(rad_to_deg(std::atan2(p.y(), p.x()))));
-  }
-  EXPECT_EQ(bearings_deg, (std::set<long>{-90, -18, 54, 126, -162}));
-  // 0.7 m and steps of 1 m: 7.7 m still sees the surface, 8.7 m does not
-  EXPECT_NEAR(top_m, 8.7, 1e-9);
-}
-
-TEST(CircularProfile, EndsAtTheTopOfTheNavigationBox) {
-  ProfilingConfig config;
-  config.method = ProfilingMethod::circular;
-  for (const ProfileLeg& leg : fly(config, {Vec3(5, 5, 5), 0}, 100.0)) {
-    EXPECT_LE(leg.goal.p_world_m.z(), 20.0);
-    EXPECT_GE(leg.goal.p_world_m.z(), 0.7);
-  }
-}
-
-TEST(CircularProfile, GoesAlongTheCircleFromStationToStation) {
-  ProfilingConfig config;
-  config.method = ProfilingMethod::circular;
-  Vec3 at_m(0, -20, 0.7);
-  for (const ProfileLeg& leg : fly(config, {at_m, 0}, 8.0)) {
-    // the chord of 18 degrees stays within 1.3 % of the radius
-    const Vec3 middle_m = 0.5 * (at_m + leg.goal.p_world_m);
-    EXPECT_GE(middle_m.head<2>().norm(), 20.0 * 0.987);
-    at_m = leg.goal.p_world_m;
+TEST(CircularProfile, ClimbsAtFiveStationsOfTheCircleWhileSurfaceIsSeen) {
+  // 0.7 m and steps of 1 m: 7.7 m still sees a surface of 8 m, 8.7 m does not; and up to the box
+  for (const auto& [surface_m, expected_top_m] : {std::pair(8.0, 8.7), std::pair(100.0, 20.0)}) {
+    std::set<long> bearings_deg;
+    double top_m = 0.0;
+    Vec3 at_m(0, -20, 0.7);
+    for (const ProfileLeg& leg : fly(by(ProfilingMethod::circular), {at_m, 0}, surface_m)) {
+      const Vec3& p = leg.goal.p_world_m;
+      EXPECT_NEAR(p.head<2>().norm(), 20.0, 1e-9);  // the inscribed circle of the box
+      // the chord of 18 degrees stays within 1.3 % of the radius
+      EXPECT_GE((0.5 * (at_m + p)).head<2>().norm(), 20.0 * 0.987);
+      const Vec3 forward = T_world_body(leg.goal).linear().col(0);
+      EXPECT_NEAR(forward.head<2>().dot(-p.head<2>()) / 20.0, 1.0, 1e-12);
+      EXPECT_GE(p.z(), 0.7);
+      top_m = std::max(top_m, p.z());
+      if (leg.is_scan) bearings_deg.insert(std::lround(rad_to_deg(std::atan2(p.y(), p.x()))));
+      at_m = p;
+    }
+    EXPECT_EQ(bearings_deg, (std::set<long>{-90, -18, 54, 126, -162}));
+    EXPECT_NEAR(top_m, expected_top_m, expected_top_m == 20.0 ? 1.0 : 1e-9);
+    EXPECT_LE(top_m, 20.0);
   }
 }
 

@@ -9,33 +9,30 @@
 #include "planner/guided/view_sampling.hpp"
 #include "planner/map/frontiers.hpp"
 #include "sensors/camera_model.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
 
-TEST(Agvs, OffersTheGridOfThePaperWithoutTheCurrentPose) {
+TEST(Agvs, OffersTheGridOfThePaperScaledWithRotationsAtScaleOneAlone) {
   const ViewPose current{Vec3(1, 2, 3), 0.3};
-  const AgvsConfig config;
-  const auto views = sample_agvs(config, current, 1.0);
-  EXPECT_EQ(views.size(), 80U);  // 3 x 3 x 3 positions, 3 yaws, less the current pose
-  for (const ViewPose& view : views) {
-    const Vec3 offset = view.p_world_m - current.p_world_m;
-    EXPECT_LE(offset.norm(), std::sqrt(3.0) + 1e-12);
-    EXPECT_FALSE(offset.norm() < 1e-9 && view.yaw_rad == current.yaw_rad);
+  struct Case {
+    bool rotation_only;
+    double scale;
+    std::size_t views;  // 3 x 3 x 3 positions, 3 yaws, less the current pose or position
+  };
+  for (const auto& [rotation_only, scale, count] :
+       std::vector<Case>{{true, 1.0, 80}, {true, 1.5, 78}, {false, 1.0, 78}}) {
+    const auto views = sample_agvs({.rotation_only = rotation_only}, current, scale);
+    EXPECT_EQ(views.size(), count);
+    double farthest_m = 0.0;
+    for (const ViewPose& view : views) {
+      const double offset_m = (view.p_world_m - current.p_world_m).norm();
+      farthest_m = std::max(farthest_m, offset_m);
+      EXPECT_FALSE(offset_m < 1e-9 && view.yaw_rad == current.yaw_rad);
+    }
+    EXPECT_NEAR(farthest_m, scale * std::sqrt(3.0), 1e-12);
   }
-}
-
-TEST(Agvs, ScalesItsStepAndOffersRotationsOnlyAtScaleOne) {
-  AgvsConfig config;
-  const ViewPose current{Vec3(0, 0, 5), 0};
-  EXPECT_EQ(sample_agvs(config, current, 1.5).size(), 78U);
-  double farthest_m = 0.0;
-  for (const ViewPose& view : sample_agvs(config, current, 1.5)) {
-    farthest_m = std::max(farthest_m, (view.p_world_m - current.p_world_m).norm());
-  }
-  EXPECT_NEAR(farthest_m, 1.5 * std::sqrt(3.0), 1e-12);
-  config.rotation_only = false;
-  EXPECT_EQ(sample_agvs(config, current, 1.0).size(), 78U);
 }
 
 TEST(Agvs, TurnsWithTheBody) {
@@ -63,8 +60,8 @@ History with_utilities(const std::vector<double>& utilities, double last_scale) 
   return history;
 }
 
-TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimit) {
-  const AgvsConfig config;
+TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimitIfAtAll) {
+  AgvsConfig config;
   const auto scale = [&](const std::vector<double>& utilities, double last_scale) {
     return next_agvs_scale(config, with_utilities(utilities, last_scale), 1.0);
   };
@@ -73,6 +70,8 @@ TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimit) {
   EXPECT_EQ(scale({0.01, 0.02, 0.3}, 6.0), 1.0);
   EXPECT_EQ(scale({0.01, 0.3, 0.02, 0.03}, 6.0), 1.0);
   EXPECT_EQ(scale({0.0, 0.0}, 1.0), 1.0);
+  config.scales = false;
+  EXPECT_EQ(scale({0.0, 0.0, 0.0}, 3.0), 1.0);
 }
 
 TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
@@ -114,12 +113,6 @@ TEST(Agvs, ScaleGrowsWhenItGoesBackAndForth) {
   EXPECT_EQ(scale({a, a, a, a, a, a}), 1.0);  // turning on the spot is no motion
 }
 
-TEST(Agvs, NeverGrowsWithItsScalesOff) {
-  AgvsConfig config;
-  config.scales = false;
-  EXPECT_EQ(next_agvs_scale(config, with_utilities({0.0, 0.0, 0.0}, 3.0), 1.0), 1.0);
-}
-
 TEST(Fvs, StandsOnThreeLayersOfACylinderFacingItsAxis) {
   const FvsConfig config;
   const Vec3 centroid(3, -2, 6);
@@ -145,17 +138,13 @@ const Box3 kWorkspace(Vec3(-8, -8, 0), Vec3(8, 8, 8));
 
 OccupancyGrid grid_with(const std::vector<Vec3>& occupied_m) {
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace);
-  ScanUpdate update;
-  for (const Vec3& p_m : occupied_m) {
-    update.occupied.push_back(grid.geometry().index_of(grid.geometry().key_of(p_m)));
-  }
-  grid.apply(update);
+  for (const Vec3& p_m : occupied_m) hit(grid, {voxel_at(grid, p_m)});
   return grid;
 }
 
 FrontierCluster cluster_of(const OccupancyGrid& grid, const Vec3& p_m) {
-  const Key key = grid.geometry().key_of(p_m);
-  return {{grid.geometry().index_of(key)}, grid.geometry().center_m(key)};
+  const VoxelIndex v = voxel_at(grid, p_m);
+  return {{v}, grid.geometry().center_m(grid.geometry().key_at(v))};
 }
 
 const Vec3 kTarget(3.1, 0.1, 4.1);
@@ -178,40 +167,24 @@ TEST(Frustum, IsBoundedByFieldOfViewAndRange) {
   EXPECT_FALSE(sees(0.29, 0, 0));
 }
 
-TEST(ClusterView, RejectsWhatDoesNotLookAtTheCluster) {
-  const CameraModel camera = make_camera_model({});
-  const OccupancyGrid grid = grid_with({kTarget});
-  const FrontierCluster cluster = cluster_of(grid, kTarget);
-  const auto verdict = [&](const ViewPose& view) {
-    return cluster_rejection({&camera, 1}, grid, cluster, view, true);
-  };
-  EXPECT_EQ(verdict(kFacing), std::nullopt);
-  EXPECT_EQ(verdict({kFacing.p_world_m, kPi}), Rejection::cluster_outside_fov);
-}
-
-TEST(ClusterView, RejectsWhatIsHiddenUnlessAskedNotTo) {
-  const CameraModel camera = make_camera_model({});
-  const OccupancyGrid grid = grid_with({kTarget, Vec3(1.5, 0.1, 4.1)});
-  const FrontierCluster cluster = cluster_of(grid, kTarget);
-  EXPECT_EQ(cluster_rejection({&camera, 1}, grid, cluster, kFacing, true),
-            Rejection::cluster_hidden);
-  EXPECT_EQ(cluster_rejection({&camera, 1}, grid, cluster, kFacing, false), std::nullopt);
-  // a second voxel of the cluster beside the obstacle is enough
-  FrontierCluster wide = cluster;
-  const Key beside = grid.geometry().key_of(Vec3(3.1, 1.1, 4.1));
-  wide.voxels.push_back(grid.geometry().index_of(beside));
-  EXPECT_EQ(cluster_rejection({&camera, 1}, grid, wide, kFacing, true), std::nullopt);
-}
-
-TEST(ClusterView, AnyCameraWillDo) {
-  CameraConfig up;
-  up.pitch_rad = deg_to_rad(-60.0);
-  const std::vector<CameraModel> cameras = {make_camera_model(up), make_camera_model({})};
-  const OccupancyGrid grid = grid_with({kTarget});
-  const FrontierCluster cluster = cluster_of(grid, kTarget);
-  EXPECT_EQ(cluster_rejection({cameras.data(), 1}, grid, cluster, kFacing, true),
-            Rejection::cluster_outside_fov);
-  EXPECT_EQ(cluster_rejection(cameras, grid, cluster, kFacing, true), std::nullopt);
+TEST(ClusterView, RejectsWhatDoesNotLookAtTheClusterOrIsHiddenUnlessAskedNotTo) {
+  const std::vector<CameraModel> cameras = {make_camera_model({.pitch_rad = deg_to_rad(-60.0)}),
+                                            make_camera_model({})};
+  const std::span up = std::span(cameras).first(1), ahead = std::span(cameras).last(1);
+  const OccupancyGrid open = grid_with({kTarget});
+  const OccupancyGrid hidden = grid_with({kTarget, Vec3(1.5, 0.1, 4.1)});
+  const FrontierCluster cluster = cluster_of(open, kTarget);
+  const ViewPose away{kFacing.p_world_m, kPi};
+  EXPECT_EQ(cluster_rejection(ahead, open, cluster, kFacing, true), std::nullopt);
+  EXPECT_EQ(cluster_rejection(ahead, open, cluster, away, true), Rejection::cluster_outside_fov);
+  EXPECT_EQ(cluster_rejection(up, open, cluster, kFacing, true), Rejection::cluster_outside_fov);
+  EXPECT_EQ(cluster_rejection(cameras, open, cluster, kFacing, true), std::nullopt)
+      << "any will do";
+  EXPECT_EQ(cluster_rejection(ahead, hidden, cluster, kFacing, true), Rejection::cluster_hidden);
+  EXPECT_EQ(cluster_rejection(ahead, hidden, cluster, kFacing, false), std::nullopt);
+  FrontierCluster wide = cluster;  // a second voxel of it beside the obstacle is enough
+  wide.voxels.push_back(voxel_at(hidden, Vec3(3.1, 1.1, 4.1)));
+  EXPECT_EQ(cluster_rejection(ahead, hidden, wide, kFacing, true), std::nullopt);
 }
 
 // The presets of the planner's switches.

@@ -47,10 +47,7 @@ TEST(GainIsLow, BelowTheThresholdOverTheWholeWindowAndNotBefore) {
   EXPECT_EQ(end_of(config, last_of(progress, 3)), std::nullopt);   // two views are no window
   config.new_voxels_window = 4;                                    // 99 voxels in 2 m
   EXPECT_EQ(end_of(config, all), std::nullopt);
-}
-
-TEST(GainIsLow, OfViewsThatOnlyTurnIsUnknownAndOfLostVoxelsNegative) {
-  TerminationConfig config;
+  // of views that only turn it is unknown, of lost voxels negative
   config.new_voxels_window = 1;
   config.min_new_voxels_per_m = 1e-6;
   EXPECT_EQ(end_of(config, {.progress = {{100, 0, 2.0}, {100, 0, 2.0}}}), std::nullopt);
@@ -70,23 +67,19 @@ TEST(NoNewPoints, AfterSoManyViewsInARowThatAddNone) {
   EXPECT_EQ(end_of(config, all), std::nullopt);
 }
 
-TEST(EntropyChange, NeedsEveryViewOfTheWindowToBeQuiet) {
+TEST(EntropyChange, NeedsEveryViewOfAFullWindowToBeQuiet) {
   TerminationConfig config;
   config.entropy_window = 3;
   config.entropy_change_percent = 0.001;
-  EXPECT_EQ(end_of(config, {.entropies_nat = {2e6, 1e6, 1e6 - 5, 1e6 - 9, 1e6 - 10}}),
-            Termination::entropy_change);
-  // 20 nat are 0.002 %
-  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6 - 5, 1e6 - 25, 1e6 - 26}}), std::nullopt);
-}
-
-TEST(EntropyChange, WaitsForAFullWindowAndCanBeSwitchedOff) {
-  TerminationConfig config;
-  config.entropy_window = 3;
-  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6}}), std::nullopt);
-  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6, 1e6}}), Termination::entropy_change);
+  const auto end = [&](std::vector<double> entropies_nat) {
+    return end_of(config, {.entropies_nat = std::move(entropies_nat)});
+  };
+  EXPECT_EQ(end({2e6, 1e6, 1e6 - 5, 1e6 - 9, 1e6 - 10}), Termination::entropy_change);
+  EXPECT_EQ(end({1e6, 1e6 - 5, 1e6 - 25, 1e6 - 26}), std::nullopt);  // 20 nat are 0.002 %
+  EXPECT_EQ(end({1e6, 1e6, 1e6}), std::nullopt);
+  EXPECT_EQ(end({1e6, 1e6, 1e6, 1e6}), Termination::entropy_change);
   config.entropy_change_percent = 0.0;
-  EXPECT_EQ(end_of(config, {.entropies_nat = {1e6, 1e6, 1e6, 1e6}}), std::nullopt);
+  EXPECT_EQ(end({1e6, 1e6, 1e6, 1e6}), std::nullopt);
 }
 
 /// So many views, from two places in turn.
@@ -112,39 +105,33 @@ TEST(MaxIterations, IsTheFirstRuleAndNoPlannerSwitchesItOff) {
   EXPECT_EQ(end_of(config, {.decisions = back_and_forth(11)}, none), std::nullopt);
 }
 
-TEST(EndAfterView, TheFirstRuleNamesTheEnd) {
+TEST(EndAfterView, TheFirstRuleNamesTheEndAndAPlannerMaySwitchRulesOff) {
   TerminationConfig config;
   config.entropy_window = 1;
   config.new_voxels_window = 1;
   config.min_new_voxels_per_m = 1.0;
   config.max_views_without_new_points = 1;
-  const std::vector<double> settled = {5.0, 5.0}, going = {5.0, 4.0};
-  const auto end = [&](const std::vector<double>& entropies_nat, std::size_t voxels,
-                       std::size_t points) {
-    return end_of(config, {.entropies_nat = entropies_nat, .progress = walk({voxels}, {points})});
-  };
-  EXPECT_EQ(end(settled, 0, 0), Termination::entropy_change);
-  EXPECT_EQ(end(going, 0, 0), Termination::low_gain);
-  EXPECT_EQ(end(going, 0, 1), Termination::low_gain);
-  EXPECT_EQ(end(going, 1, 0), Termination::no_new_points);
-  EXPECT_EQ(end(going, 1, 1), std::nullopt);
-}
-
-TEST(EndAfterView, APlannerMaySwitchRulesOff) {
-  TerminationConfig config;
-  config.entropy_window = 1;
-  config.max_views_without_new_points = 1;
   config.repeated_moves = 2;
-  const History history = {
-      .decisions = back_and_forth(4), .entropies_nat = {5.0, 5.0}, .progress = walk({0}, {0})};
   EndRules rules;
-  EXPECT_EQ(end_of(config, history, rules), Termination::entropy_change);
+  const auto end = [&](double entropy_nat, std::size_t voxels, std::size_t points, int views = 3) {
+    return end_of(config,
+                  {.decisions = back_and_forth(views),
+                   .entropies_nat = {5.0, entropy_nat},
+                   .progress = walk({voxels}, {points})},
+                  rules);
+  };
+  EXPECT_EQ(end(5.0, 0, 0), Termination::entropy_change);
+  EXPECT_EQ(end(4.0, 0, 0), Termination::low_gain);
+  EXPECT_EQ(end(4.0, 0, 1), Termination::low_gain);
+  EXPECT_EQ(end(4.0, 1, 0), Termination::no_new_points);
+  EXPECT_EQ(end(4.0, 1, 1), std::nullopt);
+  EXPECT_EQ(end(5.0, 0, 0, 4), Termination::entropy_change);
   rules.entropy = false;
-  EXPECT_EQ(end_of(config, history, rules), Termination::no_new_points);
+  EXPECT_EQ(end(5.0, 0, 0, 4), Termination::low_gain);
   rules.gain = false;
-  EXPECT_EQ(end_of(config, history, rules), Termination::repeated_motion);
+  EXPECT_EQ(end(5.0, 0, 0, 4), Termination::repeated_motion);
   rules.repetition = false;
-  EXPECT_EQ(end_of(config, history, rules), std::nullopt);
+  EXPECT_EQ(end(5.0, 0, 0, 4), std::nullopt);
 }
 
 TEST(NextDecision, HandsOutTheViewsOfAPlanInOrderBeforeItAsksForAnother) {

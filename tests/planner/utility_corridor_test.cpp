@@ -24,97 +24,71 @@ double value(const char* name, ViewStats stats, double path_m = 0.0) {
   return score(config, stats).value().value;
 }
 
-/// free, unknown, unknown, occupied: P_v is 1, 0.6, 0.3, 0.15.
-Corridor seen_from_behind() {
+/// One letter a voxel: f free, o occupied; unknown for others, and beyond.
+Corridor corridor_of(std::string_view voxels) {
   Corridor corridor(8);
-  corridor.miss(0);
-  corridor.hit(3);
+  for (VoxelIndex v = 0; v < voxels.size(); ++v) {
+    if (voxels[v] == 'f') corridor.miss(v);
+    if (voxels[v] == 'o') corridor.hit(v);
+  }
   return corridor;
 }
 
-TEST(OcclusionAware, IsEntropyTimesTheChanceToSeeIt) {
-  EXPECT_NEAR(value("occlusion_aware", seen_from_behind().look(1.2)),
-              kFree_nat + (0.6 + 0.3) * kUnknown_nat + 0.15 * kOccupied_nat, kTolerance);
-}
-
-TEST(OcclusionAware, LegacyMultipliesTheChanceOfBeingOccupied) {
-  const ViewStats stats =
-      seen_from_behind().look(1.2, {.detail = ViewDetail::rays, .legacy_visibility = true});
-  EXPECT_NEAR(value("occlusion_aware", stats),
-              kFree_nat + (0.4 + 0.2) * kUnknown_nat + 0.1 * kOccupied_nat, kTolerance);
-}
-
-TEST(UnobservedVoxel, TakesTheUnknownPart) {
-  EXPECT_NEAR(value("unobserved_voxel", seen_from_behind().look(1.2)), 0.9 * kUnknown_nat,
-              kTolerance);
-}
-
-TEST(RearSide, IsAnOccupiedVoxelEnteredFromAnUnknownOne) {
-  const ViewStats stats = seen_from_behind().look(1.2);
-  EXPECT_EQ(value("rear_side_voxel", stats), 1.0);
-  EXPECT_NEAR(value("rear_side_entropy", stats), 0.9 * kUnknown_nat + 0.15 * kOccupied_nat,
-              kTolerance);
-}
-
-TEST(RearSide, ForgetsTheUnknownBeforeAKnownVoxel) {
-  // free, unknown, free, unknown, occupied: P_v is 1, 0.6, 0.3, 0.18, 0.09
-  Corridor corridor(8);
-  corridor.miss(0);
-  corridor.miss(2);
-  corridor.hit(4);
-  EXPECT_NEAR(value("rear_side_entropy", corridor.look(1.2)),
-              0.18 * kUnknown_nat + 0.09 * kOccupied_nat, kTolerance);
-}
-
-TEST(RearSide, IsNothingFromFreeSpaceOrWithoutASurface) {
-  Corridor corridor(8);
-  corridor.miss(0);
-  EXPECT_EQ(value("rear_side_voxel", corridor.look(1.2)), 0.0);
-  EXPECT_EQ(value("rear_side_entropy", corridor.look(1.2)), 0.0);
-  corridor.miss(1);
-  corridor.hit(2);
-  EXPECT_EQ(value("rear_side_voxel", corridor.look(1.2)), 0.0);
-  EXPECT_EQ(value("rear_side_entropy", corridor.look(1.2)), 0.0);
-}
-
-TEST(AverageEntropyAndKriegel, AreThatOfRaysWhichEndAtASurface) {
+TEST(Utilities, OfOneRayAreTheirFormulasWorkedByHand) {
   const double sum_nat = kFree_nat + 2 * kUnknown_nat + kOccupied_nat;
-  const ViewStats stats = seen_from_behind().look(1.2);
-  EXPECT_NEAR(value("kriegel", stats), sum_nat, kTolerance);
-  EXPECT_NEAR(value("average_entropy", stats), sum_nat / 4, kTolerance);
-  const ViewStats short_of_it = seen_from_behind().look(0.5);
-  EXPECT_EQ(value("kriegel", short_of_it), 0.0);
-  EXPECT_EQ(value("average_entropy", short_of_it), 0.0);
+  // of the ray of 1.2 m, through the unknown voxels from 0.1 m to 0.5 m, in its pyramid
+  const double unknown_m3 =
+      (std::pow(0.5, 3) - std::pow(0.1, 3)) / std::pow(1.2, 3) * (0.2 * 0.2 * 1.2 / 3.0);
+  struct Case {
+    const char* utility;
+    const char* voxels;
+    double range_m, path_m, expected;
+  };
+  for (const auto& [utility, voxels, range_m, path_m, expected] : std::vector<Case>{
+           // the chance to see them is 1, 0.6, 0.3, 0.15
+           {"occlusion_aware", "f??o", 1.2, 0.0,
+            kFree_nat + 0.9 * kUnknown_nat + 0.15 * kOccupied_nat},
+           {"unobserved_voxel", "f??o", 1.2, 0.0, 0.9 * kUnknown_nat},
+           {"rear_side_voxel", "f??o", 1.2, 0.0, 1.0},
+           {"rear_side_entropy", "f??o", 1.2, 0.0, 0.9 * kUnknown_nat + 0.15 * kOccupied_nat},
+           // 1, 0.6, 0.3, 0.18, 0.09, and a known voxel lets forget what is before it
+           {"rear_side_entropy", "f?f?o", 1.2, 0.0, 0.18 * kUnknown_nat + 0.09 * kOccupied_nat},
+           {"rear_side_voxel", "f", 1.2, 0.0, 0.0},  // without a surface, or from free space
+           {"rear_side_entropy", "f", 1.2, 0.0, 0.0},
+           {"rear_side_voxel", "ffo", 1.2, 0.0, 0.0},
+           {"rear_side_entropy", "ffo", 1.2, 0.0, 0.0},
+           {"kriegel", "f??o", 1.2, 0.0, sum_nat},  // of rays which end at a surface
+           {"kriegel", "f??o", 0.5, 0.0, 0.0},
+           {"average_entropy", "f??o", 1.2, 0.0, sum_nat / 4},
+           {"average_entropy", "f??o", 0.5, 0.0, 0.0},
+           {"bircher_volume", "f??o", 1.2, 0.0, 2 * 0.008},
+           {"bircher_volume", "f??o", 1.2, 3.0, 2 * 0.008 * std::exp(-0.6)},
+           {"aep", "f??o", 1.2, 0.0, unknown_m3},
+           {"aep", "f??o", 1.2, 2.0, unknown_m3 * std::exp(-0.4)},
+           {"isler", "f??o", 1.2, 0.0, sum_nat},
+           {"bircher", "f??o", 1.2, 2.0, sum_nat * std::exp(-0.4)}}) {
+    const bool is_count = expected == std::floor(expected);
+    const bool is_whole = std::string_view(utility) == "bircher_volume";  // voxels
+    const double tolerance = is_count ? 0.0 : is_whole ? 1e-12 : expected < 0.1 ? 1e-8 : kTolerance;
+    EXPECT_NEAR(value(utility, corridor_of(voxels).look(range_m), path_m), expected, tolerance)
+        << utility << " of " << voxels;
+  }
 }
 
-TEST(BircherVolume, IsTheVolumeOfTheVoxelsSeenWeighedAndDiscounted) {
-  const ViewStats stats = seen_from_behind().look(1.2);
-  EXPECT_NEAR(value("bircher_volume", stats), 2 * 0.008, 1e-12);
-  EXPECT_NEAR(value("bircher_volume", stats, 3.0), 2 * 0.008 * std::exp(-0.6), 1e-12);
+TEST(Utilities, HaveTheirSwitches) {
+  const ViewStats legacy =
+      corridor_of("f??o").look(1.2, {.detail = ViewDetail::rays, .legacy_visibility = true});
+  EXPECT_NEAR(value("occlusion_aware", legacy),  // the chance of being occupied
+              kFree_nat + (0.4 + 0.2) * kUnknown_nat + 0.1 * kOccupied_nat, kTolerance);
   UtilityConfig config;
   config.name = "bircher_volume";
   config.volume_weights = {.unmapped = 0.5, .free = 2.0, .occupied = 4.0};
-  EXPECT_NEAR(score(config, stats)->value, (0.5 * 2 + 2.0 + 4.0) * 0.008, 1e-12);
-}
-
-TEST(Aep, IsTheUnknownPartOfThePyramid) {
-  // the ray of 1.2 m passes the unknown voxels from 0.1 m to 0.5 m
-  const double share = (std::pow(0.5, 3) - std::pow(0.1, 3)) / std::pow(1.2, 3);
-  const double pyramid_m3 = 0.2 * 0.2 * 1.2 / 3.0;
-  const ViewStats stats = seen_from_behind().look(1.2);
-  EXPECT_NEAR(value("aep", stats), share * pyramid_m3, 1e-8);
-  EXPECT_NEAR(value("aep", stats, 2.0), share * pyramid_m3 * std::exp(-0.4), 1e-8);
-}
-
-TEST(IslerAndBircher, CountEntropyAlongTheRay) {
-  const double sum_nat = kFree_nat + 2 * kUnknown_nat + kOccupied_nat;
-  const ViewStats stats = seen_from_behind().look(1.2, {});
-  EXPECT_NEAR(value("isler", stats), sum_nat, kTolerance);
-  EXPECT_NEAR(value("bircher", stats, 2.0), sum_nat * std::exp(-0.4), kTolerance);
+  EXPECT_NEAR(score(config, corridor_of("f??o").look(1.2))->value, (0.5 * 2 + 2.0 + 4.0) * 0.008,
+              1e-12);
 }
 
 TEST(Proposed, WorkedOnTheCorridor) {
-  Corridor corridor = seen_from_behind();
+  Corridor corridor = corridor_of("f??o");
   corridor.grid.predict(1);
   corridor.grid.predict(2);  // behind the first predicted voxel of the only ray
   const ViewStats stats = corridor.look(1.2, {});
@@ -143,22 +117,14 @@ TEST(ProximityCount, IsLargestNextToTheSurface) {
 }
 
 TEST(AreaFactor, GivesEachRayOneVote) {
-  Corridor corridor(8);
-  corridor.miss(0);
-  corridor.miss(1);
-  corridor.hit(2);
-  const ViewStats front = corridor.look(1.2);
-  EXPECT_EQ(front.front_rays, 1U);
-  EXPECT_EQ(front.shadow_rays, 0U);
+  Corridor corridor = corridor_of("ffo");
+  EXPECT_EQ(corridor.look(1.2).front_rays, 1U);
   corridor.grid.shade(1);  // measured: no shadow
   EXPECT_EQ(corridor.look(1.2).shadow_rays, 0U);
-  Corridor shaded(8);
+  Corridor shaded = corridor_of("?fo");
   shaded.grid.shade(0);
-  shaded.miss(1);
-  shaded.hit(2);
-  const ViewStats both = shaded.look(1.2);
-  EXPECT_EQ(both.shadow_rays, 1U);
-  EXPECT_EQ(both.front_rays, 0U);
+  EXPECT_EQ(shaded.look(1.2).shadow_rays, 1U);
+  EXPECT_EQ(shaded.look(1.2).front_rays, 0U);
 }
 
 TEST(AreaFactor, PeaksAtTheSharesWanted) {
@@ -169,14 +135,16 @@ TEST(AreaFactor, PeaksAtTheSharesWanted) {
     stats.shadow_rays = shadow;
     return value("area_factor", stats);
   };
-  EXPECT_NEAR(of(20, 80), 2.0, 1e-12);
-  EXPECT_NEAR(of(0, 0), 0.0, 1e-12);
-  EXPECT_NEAR(of(100, 0), 0.0, 1e-12);
-  EXPECT_NEAR(of(0, 100), 0.0, 1e-12);
-  EXPECT_NEAR(of(10, 0), 0.5, 1e-12);  // 3 / 4 - 2 / 8
-  EXPECT_NEAR(of(0, 40), 0.5, 1e-12);
-  EXPECT_NEAR(of(60, 0), 0.5, 1e-12);  // half way down
-  EXPECT_NEAR(of(0, 90), 0.5, 1e-12);
+  for (const auto& [front, shadow, expected] : {std::tuple(20U, 80U, 2.0),
+                                                {0U, 0U, 0.0},
+                                                {100U, 0U, 0.0},
+                                                {0U, 100U, 0.0},
+                                                {10U, 0U, 0.5},  // 3 / 4 - 2 / 8
+                                                {0U, 40U, 0.5},
+                                                {60U, 0U, 0.5},
+                                                {0U, 90U, 0.5}}) {  // half way down
+    EXPECT_NEAR(of(front, shadow), expected, 1e-12) << front << " " << shadow;
+  }
 }
 
 }  // namespace

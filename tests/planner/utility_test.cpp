@@ -25,81 +25,51 @@ ViewStats view() {
   return stats;
 }
 
-UtilityConfig named(const char* name) {
+UtilityConfig named(std::string_view name) {
   UtilityConfig config;
   config.name = name;
   return config;
 }
 
-TEST(ProposedUtility, IsEquation2WorkedByHand) {
+TEST(ProposedUtility, IsEquations2And3WorkedByHand) {
   // E = 700 / 1000, D = 1 - 150 / 300, P = 0, weights normalised: 0.5 / (0.5 + 0.5)
-  const auto s = score(named("proposed"), view());
-  ASSERT_TRUE(s);
-  EXPECT_NEAR(s->information, 0.7, 1e-12);
-  EXPECT_NEAR(s->density, 0.5, 1e-12);
-  EXPECT_NEAR(s->value, (1 + 10 * 0.7) * (0.5 * 0.5) * std::exp(-0.4) * 2.0, 1e-12);
-}
-
-TEST(ProposedUtility, CountsPredictedVoxelsAsEquation3) {
+  const auto plain = score(named("proposed"), view());
+  EXPECT_NEAR(plain->information, 0.7, 1e-12);
+  EXPECT_NEAR(plain->density, 0.5, 1e-12);
+  EXPECT_NEAR(plain->value, (1 + 10 * 0.7) * (0.5 * 0.5) * std::exp(-0.4) * 2.0, 1e-12);
   ViewStats stats = view();
   stats.predicted_voxels = 300;
-  const auto s = score(named("proposed"), stats);
-  ASSERT_TRUE(s);
-  EXPECT_NEAR(s->prediction, 0.75, 1e-12);
-  EXPECT_NEAR(s->value, 8.0 * (0.5 * 0.5 + 0.5 * 0.75) * std::exp(-0.4) * 2.0, 1e-12);
+  const auto predicted = score(named("proposed"), stats);
+  EXPECT_NEAR(predicted->prediction, 0.75, 1e-12);
+  EXPECT_NEAR(predicted->value, 8.0 * (0.5 * 0.5 + 0.5 * 0.75) * std::exp(-0.4) * 2.0, 1e-12);
+  UtilityConfig weighed = named("proposed");  // only the ratio of beta and gamma matters
+  weighed.beta = weighed.gamma = 2.0;
+  EXPECT_NEAR(score(weighed, view())->value, plain->value, 1e-12);
+  weighed.normalise_weights = false;  // unless the weights are taken as printed
+  EXPECT_NEAR(score(weighed, view())->value, 4.0 * plain->value, 1e-12);
 }
 
-TEST(ProposedUtility, SparseAndLiteralDensityAreComplements) {
+TEST(ProposedUtility, SparseAndLiteralDensityAreComplementsButOfNoPointsBothNone) {
   UtilityConfig literal = named("proposed");
   literal.density_term = DensityTerm::literal;
   ViewStats stats = view();
   stats.density_sum = 100 * 30.0;
   EXPECT_NEAR(score(named("proposed"), stats)->density, 0.9, 1e-12);
   EXPECT_NEAR(score(literal, stats)->density, 0.1, 1e-12);
-}
-
-TEST(ProposedUtility, AViewWithoutPointsHasNoDensityEitherWay) {
-  UtilityConfig literal = named("proposed");
-  literal.density_term = DensityTerm::literal;
-  ViewStats stats = view();
   stats.density_sum = 0.0;
   EXPECT_EQ(score(named("proposed"), stats)->density, 0.0);
   EXPECT_EQ(score(literal, stats)->density, 0.0);
 }
 
-TEST(ProposedUtility, OnlyTheRatioOfBetaAndGammaMatters) {
-  UtilityConfig doubled = named("proposed");
-  doubled.beta *= 2;
-  doubled.gamma *= 2;
-  EXPECT_NEAR(score(doubled, view())->value, score(named("proposed"), view())->value, 1e-12);
-}
-
-TEST(BaselineUtilities, BircherIsIslerDiscountedByDistance) {
-  const auto isler = score(named("isler"), view());
-  const auto bircher = score(named("bircher"), view());
-  EXPECT_EQ(isler->value, 1234.5);
-  EXPECT_NEAR(bircher->value, 1234.5 * std::exp(-0.2 * 2.0), 1e-9);
-}
-
-TEST(BaselineUtilities, CountVoxelsPerRayOrOnce) {
-  UtilityConfig unique = named("isler");
-  unique.ig_counting = IgCounting::unique;
-  EXPECT_EQ(score(unique, view())->value, 700 * std::numbers::ln2);
-  EXPECT_EQ(score(named("isler"), view())->value, 1234.5);
-}
-
-TEST(BaselineUtilities, BircherHasADiscountOfItsOwn) {
-  UtilityConfig config = named("bircher");
-  config.bircher_lambda_per_m = 0.5;
-  EXPECT_NEAR(score(config, view())->value, 1234.5 * std::exp(-1.0), 1e-9);
-}
-
-TEST(ProposedUtility, TakesTheWeightsAsPrintedWhenAsked) {
-  UtilityConfig printed = named("proposed");
-  printed.beta = 2.0;
-  printed.gamma = 2.0;
-  printed.normalise_weights = false;
-  EXPECT_NEAR(score(printed, view())->value, 4.0 * score(named("proposed"), view())->value, 1e-12);
+TEST(BaselineUtilities, CountVoxelsPerRayOrOnceAndBircherDiscountsThem) {
+  UtilityConfig isler = named("isler");
+  EXPECT_EQ(score(isler, view())->value, 1234.5);
+  isler.ig_counting = IgCounting::unique;
+  EXPECT_EQ(score(isler, view())->value, 700 * std::numbers::ln2);
+  UtilityConfig bircher = named("bircher");
+  EXPECT_NEAR(score(bircher, view())->value, 1234.5 * std::exp(-0.2 * 2.0), 1e-9);
+  bircher.bircher_lambda_per_m = 0.5;
+  EXPECT_NEAR(score(bircher, view())->value, 1234.5 * std::exp(-1.0), 1e-9);
 }
 
 TEST(RandomChoice, IsKeyedByMissionIterationAndCandidate) {
@@ -128,7 +98,7 @@ TEST(ReleasedUtilities, RefuseAViewThatSeesNoSurface) {
   ViewStats stats = view();
   stats.occupied_voxels = 0;
   for (const auto name : utility_names()) {
-    const UtilityConfig config = named(std::string(name).c_str());
+    const UtilityConfig config = named(name);
     const bool is_released = name == "proposed" || name == "bircher" || name == "isler";
     EXPECT_EQ(score(config, stats).has_value(), !is_released) << name;
   }
@@ -144,7 +114,7 @@ TEST(EveryUtility, HasAFormulaAndAnUnknownNameHasNone) {
   stats.voxel_m3 = 0.008;
   stats.sparse_voxels = 1;
   for (const auto name : utility_names()) {
-    EXPECT_GT(score(named(std::string(name).c_str()), stats)->value, 0.0) << name;
+    EXPECT_GT(score(named(name), stats)->value, 0.0) << name;
   }
   EXPECT_THROW(score(named("nonsense"), stats), BrokenInvariant);
   EXPECT_THROW(needs_of(named("nonsense")), BrokenInvariant);
@@ -169,7 +139,7 @@ TEST(EveryUtility, StopsTheRunOnNaN) {
   stats.entropy_of_occupied_nat = stats.unknown_volume_m3 = stats.proximity_sum = nan;
   for (const auto name : utility_names()) {
     if (name == "random" || name == "rear_side_voxel" || name == "area_factor") continue;  // counts
-    EXPECT_THROW(score(named(std::string(name).c_str()), stats), BrokenInvariant) << name;
+    EXPECT_THROW(score(named(name), stats), BrokenInvariant) << name;
   }
 }
 

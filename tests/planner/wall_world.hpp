@@ -8,6 +8,7 @@
 #include "planner/core/planner.hpp"
 #include "planner/guided/guided_planner.hpp"
 #include "planner/planners.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 
@@ -39,21 +40,13 @@ struct SmallPlanner {
 template <typename IsKnown>
 Belief wall_ahead(const SmallPlanner& planner, const IsKnown& is_known) {
   Belief belief(planner.model());
-  const GridGeometry& grid = belief.grid.geometry();
-  ScanUpdate update;
-  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
-    const Vec3 center_m = grid.center_m(grid.key_at(v));
-    if (std::fabs(center_m.x() - 6.1) < 0.05) {
-      update.occupied.push_back(v);
-    } else if (is_known(center_m)) {
-      update.free.push_back(v);
-    }
-  }
-  belief.grid.apply(update);
+  const auto is_wall = [](const Vec3& p_m) { return std::fabs(p_m.x() - 6.1) < 0.05; };
+  belief.grid.apply(
+      {.free = voxels_where(belief.grid,
+                            [&](const Vec3& p_m) { return !is_wall(p_m) && is_known(p_m); }),
+       .occupied = voxels_where(belief.grid, is_wall)});
   return belief;
 }
-
-inline bool everywhere(const Vec3&) { return true; }
 
 /// The wall of `wall_ahead`, seen as a few points a voxel: all of it a frontier.
 inline void sample_thinly(Belief& belief) {
@@ -64,6 +57,13 @@ inline void sample_thinly(Belief& belief) {
     points_m.push_back(grid.center_m(grid.key_at(v)).cast<float>());
   }
   belief.cloud.add(points_m, 0.02);
+}
+
+/// The wall as a frontier, all else free.
+inline Belief thin_wall_ahead(const SmallPlanner& planner) {
+  Belief belief = wall_ahead(planner, everywhere);
+  sample_thinly(belief);
+  return belief;
 }
 
 /// As after five views without any change.

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 /// What loading says on stderr.
 std::string said_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -40,36 +41,28 @@ TEST(OldKeys, LeaveTheConfigurationOfAFileWhatItIs) {
   EXPECT_FALSE(is_written_in(ScenarioFile("nonsense").path().string(), scenario));
 }
 
-TEST(OldKeys, WithAnyOtherValueAreRefusedByName) {
-  EXPECT_EQ(complaint(kMinimal + "vehicle:\n  autopilot: {commander: {offboard_loss_s: 2}}\n"),
+TEST(OldKeys, WithAnyOtherValueAreRefusedByNameAsAreUnknownOnesBesideThem) {
+  const auto commander = [](const std::string& preset, const std::string& keys) {
+    return complaint(fmt::format("{}vehicle:\n  {{preset: {}, autopilot: {{commander: {{{}}}}}}}\n",
+                                 kMinimal, preset, keys));
+  };
+  EXPECT_EQ(commander("iris", "offboard_loss_s: 2"),
             "s.yaml:3: vehicle.autopilot.commander.offboard_loss_s: value '2': the key was removed "
             "after version 0.1; only its former default, 1, is still read");
   EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.commander={spool_up_s: 3}"}),
               HasSubstr("vehicle.autopilot.commander.spool_up_s: value '3': "));
-}
-
-TEST(OldKeys, OfTheCommanderAreWhatTheVehiclesPresetHad) {
-  const std::string kPx19 =
-      "vehicle: {preset: iris_sitl_2019, autopilot: {commander: {offboard_loss_s: 0.5, "
-      "offboard_loss_action: rtl, offboard_loss_hold_s: 5}}}\n";
-  EXPECT_EQ(complaint(kMinimal + kPx19), "");
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {preset: iris_sitl_2019, autopilot: {commander: "
-                                   "{offboard_loss_s: 1}}}\n"),
-              HasSubstr("only its former default, 0.5, is still read"));
-  EXPECT_EQ(complaint(kMinimal + "vehicle: {preset: authors, autopilot: {commander: "
-                                 "{tilt_max_on_ground_deg: 15}}}\n"),
+  // the default is what the vehicle's preset had
+  EXPECT_EQ(commander("iris_sitl_2019",
+                      "offboard_loss_s: 0.5, offboard_loss_action: rtl, offboard_loss_hold_s: 5"),
             "");
-}
-
-TEST(OldKeys, AreNoSectionOfUnknownKeys) {
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {autopilot: {commander: {offboard_los_s: 1}}}\n"),
+  EXPECT_THAT(commander("iris_sitl_2019", "offboard_loss_s: 1"),
+              HasSubstr("only its former default, 0.5, is still read"));
+  EXPECT_EQ(commander("authors", "tilt_max_on_ground_deg: 15"), "");
+  EXPECT_THAT(commander("iris", "offboard_los_s: 1"),
               HasSubstr("vehicle.autopilot.commander.offboard_los_s: is no known key"));
 }
 
 // `cameras.N.pitch_deg`: a number, or a gimbal's min, max and step.
-
-using testing::HasSubstr;
-using testing::StartsWith;
 
 const std::string kGimbal = "cameras: [{pitch_deg: {min: -12.3, max: 50, step: 15}}]\n";
 
@@ -85,27 +78,21 @@ TEST(GimbalKeys, ANumberIsAFixedMountingAndAMapAGimbal) {
   EXPECT_EQ(turning.pitch_rad, pitches_rad(*turning.gimbal)[1]);  // 2.7 degrees: the most level
 }
 
-TEST(GimbalKeys, WrittenAndReadBackAreTheSame) {
-  for (const std::string& text : {kGimbal, std::string("cameras: [{pitch_deg: 12.3}]\n")}) {
-    const std::string yaml = to_yaml(load_text(text));
-    EXPECT_EQ(to_yaml(load_text(yaml)), yaml);
-  }
-  EXPECT_THAT(to_yaml(load_text("cameras: [{pitch_deg: 12.3}]")),
-              HasSubstr("    pitch_deg: 12.3\n"));
-  EXPECT_THAT(to_yaml(load_text(kGimbal)),
+TEST(GimbalKeys, WrittenAndReadBackAreTheSameAndOneReplacesTheOther) {
+  const Scenario fixed = load_text("cameras: [{pitch_deg: 12.3}]\n"), turning = load_text(kGimbal);
+  EXPECT_TRUE(repeats(fixed) && repeats(turning));
+  EXPECT_THAT(to_yaml(fixed), HasSubstr("    pitch_deg: 12.3\n"));
+  EXPECT_THAT(to_yaml(turning),
               HasSubstr("    pitch_deg:\n      min: -12.3\n      max: 50\n      step: 15\n"));
-}
-
-TEST(GimbalKeys, OneReplacesTheOther) {
-  EXPECT_FALSE(load_text(kGimbal, {"cameras.0.pitch_deg=20"}).cameras[0].gimbal);
-  const auto gimbal =
-      load_text("cameras: [{pitch_deg: 20}]", {"cameras.0.pitch_deg={max: 40}"}).cameras[0].gimbal;
-  ASSERT_TRUE(gimbal);
-  EXPECT_EQ(gimbal->max_rad, deg_to_rad(40.0));
-  EXPECT_EQ(load_text(kGimbal, {"cameras.0.pitch_deg.step=10"}).cameras[0].gimbal->step_rad,
-            deg_to_rad(10.0));
+  const auto gimbal = [](const std::string& text, const std::string& set) {
+    return load_text(text, {set}).cameras[0].gimbal;
+  };
+  EXPECT_FALSE(gimbal(kGimbal, "cameras.0.pitch_deg=20"));
+  EXPECT_EQ(gimbal("cameras: [{pitch_deg: 20}]", "cameras.0.pitch_deg={max: 40}")->max_rad,
+            deg_to_rad(40.0));
+  EXPECT_EQ(gimbal(kGimbal, "cameras.0.pitch_deg.step=10")->step_rad, deg_to_rad(10.0));
   // a preset of the sensor leaves its mounting alone
-  EXPECT_TRUE(load_text(kGimbal, {"cameras.0.preset=zed_mini"}).cameras[0].gimbal);
+  EXPECT_TRUE(gimbal(kGimbal, "cameras.0.preset=zed_mini"));
 }
 
 TEST(GimbalKeys, WrongOnesAreRefusedInOneLine) {
@@ -137,8 +124,6 @@ std::vector<std::string> notes_of(const std::string& text) {
   return notes;
 }
 
-const std::string kIsler = kMinimal + "planner:\n  utility: {name: isler}\n";
-
 TEST(UnusedParameterNotes, NameKeyLineAndReasonInTheOrderOfTheFile) {
   const auto notes = notes_of(kMinimal +
                               "planner:\n"
@@ -147,49 +132,47 @@ TEST(UnusedParameterNotes, NameKeyLineAndReasonInTheOrderOfTheFile) {
                               "    alpha: 3\n"
                               "    name: isler\n"
                               "structure: {file: {scale: 2}}\n");
-  ASSERT_EQ(notes.size(), 3U);
-  EXPECT_EQ(notes[0],
-            "planner.routes.standoff_m (s.yaml:3) has no effect: planner.utility.name is isler");
-  EXPECT_EQ(notes[1],
-            "planner.utility.alpha (s.yaml:5) has no effect: planner.utility.name is isler");
-  EXPECT_EQ(notes[2],
-            "structure.file.scale (s.yaml:7) has no effect: structure.file.path is empty");
+  EXPECT_THAT(
+      notes,
+      testing::ElementsAre(
+          "planner.routes.standoff_m (s.yaml:3) has no effect: planner.utility.name is isler",
+          "planner.utility.alpha (s.yaml:5) has no effect: planner.utility.name is isler",
+          "structure.file.scale (s.yaml:7) has no effect: structure.file.path is empty"));
 }
 
-TEST(UnusedParameterNotes, PassOverDefaultsOfAFileAlsoThoseOfItsPreset) {
-  EXPECT_TRUE(notes_of(kIsler).empty());
+TEST(UnusedParameterNotes, PassOverDefaultsOfAFileAlsoThoseOfItsPresetAndAFileThatGivesEveryKey) {
   EXPECT_TRUE(notes_of(kMinimal + "planner: {utility: {name: isler, alpha: 10}}\n").empty());
   const std::string released = "planner: {preset: released, utility: {name: proposed, ";
   EXPECT_TRUE(notes_of(kMinimal + released + "bircher_lambda_per_m: 0.5}}\n").empty());
   EXPECT_EQ(notes_of(kMinimal + released + "bircher_lambda_per_m: 0.2}}\n").size(), 1U);
-}
-
-TEST(UnusedParameterNotes, PassOverAFileThatGivesEveryKey) {
   const Scenario scenario = load_text(kMinimal + "planner: {routes: {standoff_m: 2}}\n");
   EXPECT_TRUE(notes_of(to_yaml(scenario)).empty());
 }
 
 TEST(UnusedParameterNotes, AreOfAllThatTheUtilityAndTheBatteryDoNotRead) {
-  const auto only_note = [](const std::string& text) {
-    const auto notes = notes_of(text);
-    return notes.size() == 1 ? notes[0] : fmt::format("{} notes", notes.size());
-  };
-  EXPECT_EQ(only_note(kMinimal + "planner: {utility: {legacy_visibility: true}}\n"),
+  for (const auto& [text, note] : std::vector<std::pair<std::string, std::string>>{
+           {"planner: {utility: {legacy_visibility: true}}",
             "planner.utility.legacy_visibility (s.yaml:2) has no effect: planner.utility.name is "
-            "proposed");
-  EXPECT_EQ(only_note(kMinimal + "planner: {utility: {name: isler}, symmetry: {enabled: false}}\n"),
-            "planner.symmetry.enabled (s.yaml:2) has no effect: planner.utility.name is isler");
-  EXPECT_EQ(only_note(kMinimal + "planner: {utility: {gamma: 0}, symmetry: {min_support: 0.1}}\n"),
-            "planner.symmetry.min_support (s.yaml:2) has no effect: planner.utility.gamma is 0");
-  EXPECT_EQ(only_note(kMinimal + "vehicle: {power: {battery_wh: 9, reserve_share: 0.3}}\n"),
+            "proposed"},
+           {"planner: {utility: {name: isler}, symmetry: {enabled: false}}",
+            "planner.symmetry.enabled (s.yaml:2) has no effect: planner.utility.name is isler"},
+           {"planner: {utility: {gamma: 0}, symmetry: {min_support: 0.1}}",
+            "planner.symmetry.min_support (s.yaml:2) has no effect: planner.utility.gamma is 0"},
+           {"vehicle: {power: {battery_wh: 9, reserve_share: 0.3}}",
             "vehicle.power.reserve_share (s.yaml:2) has no effect: vehicle.power.return_home is "
-            "false");
-  EXPECT_EQ(only_note("cameras: [{noise: {baseline_m: 0.1}}]\n"),
-            "cameras.0.noise.baseline_m (s.yaml:1) has no effect: cameras.0.noise.model is none");
-  const std::string read_by_them =
-      "planner: {utility: {name: unobserved_voxel, legacy_visibility: true}}\n"
-      "vehicle: {power: {battery_wh: 9, return_home: true, reserve_share: 0.3}}\n";
-  EXPECT_TRUE(notes_of(kMinimal + read_by_them).empty());
+            "false"},
+           {"vehicle: {estimate: {outage_drift_m_per_sqrt_s: 2}}",
+            "vehicle.estimate.outage_drift_m_per_sqrt_s (s.yaml:2) has no effect: "
+            "vehicle.estimate.outages is empty"}}) {
+    EXPECT_EQ(notes_of(kMinimal + text + '\n'), std::vector{note});
+  }
+  EXPECT_EQ(notes_of("cameras: [{noise: {baseline_m: 0.1}}]\n"),
+            std::vector<std::string>{"cameras.0.noise.baseline_m (s.yaml:1) has no effect: "
+                                     "cameras.0.noise.model is none"});
+  EXPECT_TRUE(notes_of(kMinimal +
+                       "planner: {utility: {name: unobserved_voxel, legacy_visibility: true}}\n"
+                       "vehicle: {power: {battery_wh: 9, return_home: true, reserve_share: 0.3}}\n")
+                  .empty());
 }
 
 TEST(UnusedParameterNotes, PassOverWhatIsBuiltIn) {

@@ -61,109 +61,80 @@ TEST(Problems, CamerasExistAndDiffer) {
             "s.yaml:3: cameras.1.name: value 'rgbd': two cameras, 0 and 1, are named 'rgbd'");
 }
 
-TEST(Problems, AVoxelCanBecomeFreeAndOccupied) {
-  const std::string map = kMinimal + "planner: {map: {";
-  EXPECT_THAT(
-      complaint(map + "free_max: 0.6}}"),
-      HasSubstr("planner.map.free_max = 0.6 has to be below planner.map.occupied_min = 0.6"));
-  EXPECT_THAT(complaint(map + "clamp_max: 0.55}}"), HasSubstr("nothing could become occupied"));
-  EXPECT_THAT(complaint(map + "clamp_min: 0.45}}"), HasSubstr("nothing could become free"));
-}
+struct Fault {
+  std::vector<std::string> overrides;
+  std::string words;  // of the complaint; empty: none
+};
 
-TEST(Problems, OthersThatCannotRun) {
-  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.rotors.2.spin=0.5"}),
-              HasSubstr("rotors.2.spin: value '0.5': has to be 1 or -1"));
-  EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.thrust_max=0.1"}), HasSubstr("thrust_min"));
-  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.rolling_coefficient_n_s2=1"}),
-              HasSubstr("allowed: from 0 to 0.0001"));
-  EXPECT_THAT(complaint(kMinimal, {"planner.utility={beta: 0, gamma: 0}"}),
-              HasSubstr("Eq. (2) divides"));
-  EXPECT_THAT(complaint(kMinimal + "structure: {file: {path: none.obj}}"),
-              AllOf(StartsWith("s.yaml:2: structure.file.path: value '"),
-                    HasSubstr("none.obj': there is no such file")));
-}
-
-TEST(Problems, ATourPlansOverSoManyPlaces) {
-  EXPECT_THAT(complaint(kMinimal + "planner: {tour: {lattice_step_m: 1e-6}}"),
-              AllOf(StartsWith("s.yaml:2: planner.tour.lattice_step_m: value '1.0e-06': "),
-                    HasSubstr("4.1e+06 places, one every 0.2 m")));
-  EXPECT_EQ(complaint(kMinimal + "planner: {tour: {lattice_step_m: 0.6}}"), "");
-}
-
-TEST(Problems, LidarsDiffer) {
-  EXPECT_THAT(complaint(kMinimal + "lidars:\n  - {}\n  - {}\n"),
-              HasSubstr("lidars.1.name: value 'lidar': two lidars, 0 and 1, are named"));
-}
-
-TEST(Problems, RotorsCanSteer) {
-  const std::string airframe = "vehicle.airframe.";
-  EXPECT_THAT(complaint(kMinimal, {airframe + "moment_per_thrust_m=0"}),
-              AllOf(HasSubstr(airframe + "moment_per_thrust_m: value '0'"),
-                    HasSubstr("nothing turns the vehicle")));
-  EXPECT_THAT(complaint(kMinimal, {airframe + "moment_per_thrust_m=1e-5"}),
-              HasSubstr("the rotors turn the vehicle about its vertical by"));
-  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors.2.spin=1", airframe + "rotors.3.spin=1"}),
-              HasSubstr("cannot give yaw apart from thrust"));
-  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{spin: 1}, {spin: 1}, {spin: -1}]"}),
-              HasSubstr("has 3 items (allowed: from 4 to 8)"));
-  EXPECT_THAT(complaint(kMinimal, {airframe + "rotors=[{}, {}, {}, {}]"}),
-              HasSubstr("these rotors cannot give"));
-  EXPECT_THAT(complaint(kMinimal, {airframe + "drag_coefficient_n_s2_per_m=1"}),
-              HasSubstr("the rotors' drag at full command"));
-  EXPECT_EQ(complaint(kMinimal, {airframe + "rotors=[{p_body_m: [0.3, 0, 0], spin: 1}, "
-                                            "{p_body_m: [-0.3, 0, 0], spin: 1}, "
-                                            "{p_body_m: [0, 0.3, 0], spin: -1}, "
-                                            "{p_body_m: [0, -0.3, 0], spin: -1}]"}),
-            "");
-}
-
-TEST(Problems, TheHullFitsIntoWhatIsKeptFree) {
-  EXPECT_THAT(complaint(kMinimal, {"vehicle.airframe.hull_radius_m=1.6"}),
-              AllOf(HasSubstr("vehicle.airframe.hull_radius_m: value '1.6'"),
-                    HasSubstr("planner.validity.collision_radius_m has to be more")));
-  EXPECT_EQ(complaint(kMinimal, {"vehicle.kind=ideal", "vehicle.airframe.hull_radius_m=1.6"}), "");
-}
-
-TEST(Problems, NoLegTakesHours) {
-  EXPECT_THAT(complaint(kMinimal, {"guidance.yaw_rate_deg_s=0.001"}), HasSubstr("allowed: from"));
-  for (const std::string key : {"path_speed_m_s=0.01", "profile_speed_m_s=0.01"}) {
-    EXPECT_THAT(complaint(kMinimal, {"guidance." + key}), HasSubstr("leg through the workspace"));
+TEST(Problems, OfValuesThatDoNotGoTogether) {
+  const std::string a = "vehicle.airframe.";
+  for (const auto& [overrides, words] : std::vector<Fault>{
+           {{"planner.map.free_max=0.6"},
+            "planner.map.free_max = 0.6 has to be below planner.map.occupied_min = 0.6"},
+           {{"planner.map.clamp_max=0.55"}, "nothing could become occupied"},
+           {{"planner.map.clamp_min=0.45"}, "nothing could become free"},
+           {{a + "rotors.2.spin=0.5"}, "rotors.2.spin: value '0.5': has to be 1 or -1"},
+           {{"vehicle.autopilot.thrust_max=0.1"}, "thrust_min"},
+           {{a + "rolling_coefficient_n_s2=1"}, "allowed: from 0 to 0.0001"},
+           {{"planner.utility={beta: 0, gamma: 0}"}, "Eq. (2) divides"},
+           {{"planner.tour.lattice_step_m=1e-6"},
+            "planner.tour.lattice_step_m: value '1.0e-06': a lattice of 4.1e+06 places, one every "
+            "0.2 m"},
+           {{"planner.tour.lattice_step_m=0.6"}, ""},
+           {{"lidars=[{}, {}]"}, "lidars.1.name: value 'lidar': two lidars, 0 and 1, are named"},
+           // rotors that can steer
+           {{a + "moment_per_thrust_m=0"}, "nothing turns the vehicle"},
+           {{a + "moment_per_thrust_m=0"}, a + "moment_per_thrust_m: value '0'"},
+           {{a + "moment_per_thrust_m=1e-5"}, "the rotors turn the vehicle about its vertical by"},
+           {{a + "rotors.2.spin=1", a + "rotors.3.spin=1"}, "cannot give yaw apart from thrust"},
+           {{a + "rotors=[{spin: 1}, {spin: 1}, {spin: -1}]"},
+            "has 3 items (allowed: from 4 to 8)"},
+           {{a + "rotors=[{}, {}, {}, {}]"}, "these rotors cannot give"},
+           {{a + "drag_coefficient_n_s2_per_m=1"}, "the rotors' drag at full command"},
+           {{a + "rotors=[{p_body_m: [0.3, 0, 0], spin: 1}, {p_body_m: [-0.3, 0, 0], spin: 1}, "
+                 "{p_body_m: [0, 0.3, 0], spin: -1}, {p_body_m: [0, -0.3, 0], spin: -1}]"},
+            ""},
+           // a hull that fits into what is kept free
+           {{a + "hull_radius_m=1.6"}, a + "hull_radius_m: value '1.6'"},
+           {{a + "hull_radius_m=1.6"}, "planner.validity.collision_radius_m has to be more"},
+           {{"vehicle.kind=ideal", a + "hull_radius_m=1.6"}, ""},
+           // no leg takes hours
+           {{"guidance.yaw_rate_deg_s=0.001"}, "allowed: from"},
+           {{"guidance.path_speed_m_s=0.01"}, "leg through the workspace"},
+           {{"guidance.profile_speed_m_s=0.01"}, "leg through the workspace"},
+           // an ideal vehicle does not estimate and feels no wind
+           {{"vehicle.kind=ideal", "vehicle.estimate.model=gnss"},
+            "--set vehicle.estimate.model=gnss: vehicle.estimate.model: "},
+           {{"vehicle.kind=ideal", "wind.gust_w20_m_s=5"},
+            "an ideal vehicle moves exactly as commanded"},
+           {{"wind={mean_m_s: [12, -9, 0], gust_w20_m_s: 15.4}"}, ""},
+           {{"wind.mean_m_s=[0, 40, 0]"}, "hovering in a wind of 40 m/s takes a tilt of "},
+           {{"wind.mean_m_s=[0, 40, 0]"}, "the autopilot allows less than 45 deg"},
+           // only satellites are lost, and one outage after another
+           {{"vehicle.estimate={model: gnss, outages: [{start_s: 5, duration_s: 10}, "
+             "{start_s: 20}]}"},
+            ""},
+           {{"vehicle.estimate={model: vio, outages: [{start_s: 5}]}"},
+            "only an estimate by satellites, `gnss`, can lose them"},
+           {{"vehicle.estimate={model: gnss, outages: [{start_s: 5, duration_s: 10}, "
+             "{start_s: 14}]}"},
+            "begins before that at 5 s has ended"}}) {
+    const std::string said = complaint(kMinimal, overrides);
+    EXPECT_EQ(said.empty(), words.empty()) << said;
+    EXPECT_THAT(said, HasSubstr(words));
   }
   EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.rate_max_deg_s=[1, 1, 0.1]",
                                    "guidance.yaw_rate_deg_s=0.1", "guidance.yaw_jerk_deg_s3=0.1"}),
               testing::Not(HasSubstr("leg through")));
+  EXPECT_THAT(complaint(kMinimal + "structure: {file: {path: none.obj}}"),
+              AllOf(StartsWith("s.yaml:2: structure.file.path: value '"),
+                    HasSubstr("none.obj': there is no such file")));
 }
 
 TEST(Problems, OfABuiltinScenarioAreNone) {
   for (const std::string& name : builtin_scenario_names()) {
     EXPECT_TRUE(problems(load_scenario(name, {})).empty()) << name;
   }
-}
-
-TEST(Problems, AnIdealVehicleDoesNotEstimate) {
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: ideal}", {"vehicle.estimate.model=gnss"}),
-              StartsWith("--set vehicle.estimate.model=gnss: vehicle.estimate.model: "));
-}
-
-TEST(Problems, AWindIsOneTheVehicleCanHoverIn) {
-  EXPECT_EQ(complaint(kMinimal + "wind: {mean_m_s: [12, -9, 0], gust_w20_m_s: 15.4}"), "");
-  EXPECT_THAT(complaint(kMinimal + "wind: {mean_m_s: [0, 40, 0]}"),
-              AllOf(StartsWith("s.yaml:2: wind.mean_m_s: value '[0, 40, 0]': "),
-                    HasSubstr("hovering in a wind of 40 m/s takes a tilt of "),
-                    HasSubstr("the autopilot allows less than 45 deg")));
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {kind: ideal}\nwind: {gust_w20_m_s: 5}"),
-              HasSubstr("an ideal vehicle moves exactly as commanded"));
-}
-
-TEST(Problems, OnlySatellitesAreLostAndOneOutageAfterAnother) {
-  const std::string outages = "outages: [{start_s: 5, duration_s: 10}, {start_s: 20}]";
-  EXPECT_EQ(complaint(kMinimal + "vehicle: {estimate: {model: gnss, " + outages + "}}"), "");
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {estimate: {model: vio, " + outages + "}}"),
-              HasSubstr("only an estimate by satellites, `gnss`, can lose them"));
-  EXPECT_THAT(complaint(kMinimal + "vehicle: {estimate: {model: gnss, " + outages + "}}",
-                        {"vehicle.estimate.outages.1.start_s=14"}),
-              AllOf(StartsWith("--set vehicle.estimate.outages.1.start_s=14: "),
-                    HasSubstr("begins before that at 5 s has ended")));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Scenarios from a text at hand, and what loading them complains about.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -10,31 +8,19 @@
 
 #include "scenarios/load.hpp"
 #include "tests/support/fault.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
 
 /// A file in a folder of its own, gone when the object is.
 class ScenarioFile {
  public:
-  explicit ScenarioFile(const std::string& text) {
-    static int count = 0;
-    folder_ = std::filesystem::temp_directory_path() /
-              fmt::format("gnbv_scenario_{}_{}", getpid(), count++);
-    std::filesystem::create_directories(folder_);
-    std::ofstream(path()) << text;
-  }
-  ~ScenarioFile() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  ScenarioFile(const ScenarioFile&) = delete;
-  ScenarioFile& operator=(const ScenarioFile&) = delete;
-
-  std::filesystem::path path() const { return folder_ / "s.yaml"; }
-  const std::filesystem::path& folder() const { return folder_; }
+  explicit ScenarioFile(const std::string& text) { std::ofstream(path()) << text; }
+  std::filesystem::path path() const { return folder() / "s.yaml"; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
-  std::filesystem::path folder_;
+  TempFolder folder_;
 };
 
 /// The smallest scenario that loads: everything else is at its default.
@@ -43,6 +29,12 @@ inline const std::string kMinimal = "cameras: [{}]\n";
 inline Scenario load_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const ScenarioFile file(text);
   return load_scenario(file.path().string(), overrides);
+}
+
+/// Whether it reads back from its own text as the same.
+inline bool repeats(const Scenario& scenario) {
+  const std::string yaml = to_yaml(scenario);
+  return to_yaml(load_text(yaml)) == yaml;
 }
 
 /// The complaint, with the file's path cut down to "s.yaml"; empty when it loads.

@@ -16,23 +16,21 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(ValidationErrors, AnUnknownKeyNamesTheNearestKnownOne) {
-  EXPECT_EQ(complaint(kMinimal + "planner:\n  utilty: {name: isler}\n"),
-            "s.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)");
-  EXPECT_EQ(complaint(kMinimal + "planner: {agvs: {stepm: 2}}\n"),
-            "s.yaml:2: planner.agvs.stepm: is no known key (did you mean "
-            "'planner.agvs.step_m'?)");
-}
-
-TEST(ValidationErrors, AKeyInTheWrongPlaceNamesTheRightOne) {
-  EXPECT_EQ(complaint(kMinimal + "resolution_m: 0.1\n"),
-            "s.yaml:2: resolution_m: is no known key (did you mean "
-            "'planner.map.resolution_m'?)");
-}
-
-TEST(ValidationErrors, AnUnknownKeyLikeNoOtherListsTheKnownOnes) {
-  EXPECT_THAT(complaint(kMinimal + "planner: {cloud: {xyzzy: 1}}\n"),
-              HasSubstr("(known here: leaf_m, profile_leaf_m)"));
+TEST(ValidationErrors, AnUnknownKeyNamesTheNearestTheOneInItsRightPlaceOrAllKnownOnes) {
+  for (const auto& [text, said] :
+       {std::pair("planner:\n  utilty: {name: isler}\n",
+                  "s.yaml:3: planner.utilty: is no known key (did you mean 'planner.utility'?)"),
+        std::pair("planner: {agvs: {stepm: 2}}\n",
+                  "s.yaml:2: planner.agvs.stepm: is no known key (did you mean "
+                  "'planner.agvs.step_m'?)"),
+        std::pair("resolution_m: 0.1\n",
+                  "s.yaml:2: resolution_m: is no known key (did you mean "
+                  "'planner.map.resolution_m'?)"),
+        std::pair("planner: {cloud: {xyzzy: 1}}\n",
+                  "s.yaml:2: planner.cloud.xyzzy: is no known key (known here: leaf_m, "
+                  "profile_leaf_m)")}) {
+    EXPECT_EQ(complaint(kMinimal + text), said);
+  }
 }
 
 TEST(ValidationErrors, AnUnknownNameShowsTheAllowedOnesAndTheNearest) {

@@ -39,11 +39,11 @@ std::size_t pixel_of(const CameraModel& camera, int u, int v) {
   return static_cast<std::size_t>(v * camera.config.width_px + u);
 }
 
-TEST(ColourCapture, IsAlignedWithDepthPixelByPixel) {
-  TriangleMesh scene_mesh = test::sphere({5.0, 0.3, 0.2}, 1.0, 4);
+TEST(ColourCapture, IsAlignedWithDepthPixelByPixelAndSeesBeyondItsRange) {
+  TriangleMesh scene_mesh = test::sphere({5.0, 0.3, 0.2}, 1.0);
   paint(scene_mesh, 0, {0.6F, 0.0F, 0.0F});
   const std::size_t ball_faces = scene_mesh.faces.size();
-  add_wall(scene_mesh, 7.0, -20, 20, -20, 20);
+  add_wall(scene_mesh, 60.0, -200, 200, -200, 200);
   paint(scene_mesh, ball_faces, {0.0F, 0.0F, 0.6F});
   const RayScene scene(world_of(scene_mesh, false));
   const CameraModel camera = colour_camera(0.1, 161, 119);
@@ -53,17 +53,11 @@ TEST(ColourCapture, IsAlignedWithDepthPixelByPixel) {
   EXPECT_EQ(colour.T_world_camera.matrix(), depth.T_world_camera.matrix());
   ASSERT_EQ(colour.rgb.size(), depth.depth_m.size());
   int balls = 0;
-  for (int v = 0; v < 119; ++v) {
-    for (int u = 0; u < 161; ++u) {
-      const std::size_t pixel = pixel_of(camera, u, v);
-      const Vec3 p_world_m = depth.T_world_camera * Vec3(static_cast<double>(depth.depth_m[pixel]) *
-                                                         camera.ray_camera(u, v).cast<double>());
-      const bool is_ball = p_world_m.x() < 6.9;
-      const Rgb& rgb = colour.rgb[pixel];
-      ASSERT_EQ(rgb[0] > 0, is_ball) << u << ", " << v;
-      ASSERT_EQ(rgb[2] > 0, !is_ball) << u << ", " << v;
-      balls += is_ball ? 1 : 0;
-    }
+  for (std::size_t i = 0; i < colour.rgb.size(); ++i) {
+    const bool is_ball = std::isfinite(depth.depth_m[i]);
+    ASSERT_EQ(colour.rgb[i][0] > 0, is_ball) << i;
+    ASSERT_EQ(colour.rgb[i][2] > 0, !is_ball) << i;
+    balls += is_ball ? 1 : 0;
   }
   EXPECT_GT(balls, 1000);
 }
@@ -165,18 +159,6 @@ TEST(ColourCapture, GroundHasFeaturesAndSkyIsBlueOverhead) {
   const Rgb bottom = up.rgb[pixel_of(camera, 80, 119)];
   EXPECT_GT(top[2], top[0] + 50);
   EXPECT_GT(brightness(bottom), brightness(top));  // paler towards the horizon
-}
-
-TEST(ColourCapture, SeesBeyondTheRangeOfDepth) {
-  TriangleMesh wall;
-  add_wall(wall, 60.0, -200, 200, -200, 200);
-  paint(wall, 0, {0.6F, 0.0F, 0.0F});
-  const RayScene scene(world_of(wall, false));
-  const CameraModel camera = colour_camera(0.0, 8, 8);
-  for (const Rgb& rgb : capture_colour(scene, camera, 0, Isometry::Identity(), 1).rgb) {
-    EXPECT_GT(rgb[0], 0);
-    EXPECT_EQ(rgb[2], 0);
-  }
 }
 
 TEST(Srgb, EqualsTheStandardsCurveWithinALevel) {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "sensors/capture.hpp"
 #include "tests/sensors/shapes.hpp"
@@ -17,7 +17,6 @@ namespace {
 
 using test::add_rectangle;
 using test::is_standard;
-using test::moments;
 using test::world_of;
 
 constexpr DepthNoise kModels[] = {DepthNoise::released, DepthNoise::khoshelham, DepthNoise::nguyen,
@@ -46,8 +45,8 @@ TriangleMesh slanted_wall(double z_m, double tilt_rad) {
 
 /// Errors of a frame of the wall, each over the deviation that `sigma` gives it.
 template <typename Sigma>
-test::Moments errors(const CameraConfig& config, double z_m, double tilt_rad, const NoiseKey& key,
-                     const Sigma& sigma) {
+std::vector<double> errors(const CameraConfig& config, double z_m, double tilt_rad,
+                           const NoiseKey& key, const Sigma& sigma) {
   const RayScene scene(world_of(slanted_wall(z_m, tilt_rad), false));
   const CameraModel camera = make_camera_model(config);
   const DepthFrame frame = capture_depth(scene, camera, 0, Isometry::Identity(), key, 2);
@@ -62,38 +61,28 @@ test::Moments errors(const CameraConfig& config, double z_m, double tilt_rad, co
       sample.push_back((frame.depth_m[pixel] - true_m) / sigma(true_m, theta_rad));
     }
   }
-  return moments(sample);
+  return sample;
 }
 
-TEST(DepthNoise, ReleasedGrowsWithTheSquareOfTheDepth) {
-  for (const double z_m : {0.7, 3.0, 8.0}) {
-    EXPECT_TRUE(is_standard(errors(narrow_camera(DepthNoise::released), z_m, 0.5, {3, 5},
-                                   [](double z, double) { return 0.0025 * z * z; })))
-        << z_m;
-  }
-}
-
-TEST(DepthNoise, KhoshelhamGrowsWithTheSquareOfTheDepth) {
-  // the source's own figure: about 4 cm at the maximum range of 5 m, here 3.6 cm
-  CameraModel camera = make_camera_model(narrow_camera(DepthNoise::khoshelham));
-  EXPECT_NEAR(depth_sigma_m(camera, 5.0, 0.0), 0.0356, 1e-4);
-  for (const double z_m : {0.7, 3.0, 5.0}) {
-    EXPECT_TRUE(is_standard(errors(camera.config, z_m, 0.5, {3, 6}, [](double z, double) {
-      return 1.425e-3 * z * z;
-    }))) << z_m;
-  }
-}
-
-TEST(DepthNoise, StereoIsAnErrorOfTheDisparity) {
-  CameraConfig config = narrow_camera(DepthNoise::stereo);
-  config.noise.baseline_m = 0.07;
-  config.noise.disparity_noise_px = 1.3;  // of a long lens: 4583 pixels
+TEST(DepthNoise, GrowsWithTheSquareOfTheDepthAsEachSourceHasIt) {
+  CameraConfig stereo = narrow_camera(DepthNoise::stereo);
+  stereo.noise.baseline_m = 0.07;
+  stereo.noise.disparity_noise_px = 1.3;  // of a long lens: 4583 pixels
   const double focal_px = 120.0 / std::tan(deg_to_rad(1.5));
-  for (const double z_m : {0.7, 3.0, 8.0}) {
-    EXPECT_TRUE(is_standard(errors(config, z_m, 0.5, {3, 7}, [&](double z, double) {
-      return z * z * 1.3 / (focal_px * 0.07);
-    }))) << z_m;
+  for (const auto& [config, per_m, farthest_m] :
+       {std::tuple(narrow_camera(DepthNoise::released), 0.0025, 8.0),
+        std::tuple(narrow_camera(DepthNoise::khoshelham), 1.425e-3, 5.0),
+        std::tuple(stereo, 1.3 / (focal_px * 0.07), 8.0)}) {
+    const double share = per_m;
+    for (const double z_m : {0.7, 3.0, farthest_m}) {
+      EXPECT_TRUE(is_standard(errors(config, z_m, 0.5, {3, 5}, [&](double z, double) {
+        return share * z * z;
+      }))) << z_m;
+    }
   }
+  // Khoshelham's own figure: about 4 cm at the maximum range of 5 m
+  const CameraModel kinect = make_camera_model(narrow_camera(DepthNoise::khoshelham));
+  EXPECT_NEAR(depth_sigma_m(kinect, 5.0, 0.0), 0.0356, 1e-4);
   // the ZED Mini at 1280 x 720, as its maker's figures give it
   CameraConfig zed;
   zed.width_px = 1280;
@@ -134,6 +123,9 @@ TEST(DepthNoise, NguyenSeesNothingBeyondEightyDegreesAndThatIsInvalidNotFree) {
     for (const float depth_m : frame.depth_m) ASSERT_EQ(std::isfinite(depth_m), is_seen);
     for (const float depth_m : frame.depth_m) ASSERT_NE(depth_m, kNoReturn);
   }
+  const DepthNoiseConfig nguyen = {DepthNoise::nguyen};
+  EXPECT_EQ(lateral_sigma_px(nguyen, 0.5 * kPi), lateral_sigma_px(nguyen, deg_to_rad(80.0)));
+  EXPECT_EQ(lateral_sigma_px({DepthNoise::stereo}, 1.0), 0.0);
 }
 
 TEST(DepthNoise, NguyenDisplacesAnEdgeByItsLateralDeviation) {
@@ -173,49 +165,24 @@ TEST(DepthNoise, NguyenDisplacesAnEdgeByItsLateralDeviation) {
   }
 }
 
-TEST(DepthNoise, LateralDeviationGrowsWithIncidence) {
-  const DepthNoiseConfig nguyen = {DepthNoise::nguyen};
-  EXPECT_DOUBLE_EQ(lateral_sigma_px(nguyen, 0.0), 0.8);
-  EXPECT_DOUBLE_EQ(lateral_sigma_px(nguyen, 0.25 * kPi), 0.835);
-  EXPECT_EQ(lateral_sigma_px(nguyen, 0.5 * kPi), lateral_sigma_px(nguyen, deg_to_rad(80.0)));
-  EXPECT_EQ(lateral_sigma_px({DepthNoise::stereo}, 1.0), 0.0);
-}
-
-DepthFrame noisy_frame(const CameraConfig& config, int camera, const NoiseKey& key, int threads) {
-  const RayScene scene(world_of(test::random_soup(300, 5.0, {6, 0, 0}, 5), true));
-  return capture_depth(scene, make_camera_model(config), camera, T_world_body({{-3, 1, 2}, 0.1}),
-                       key, threads);
-}
-
-/// Share of pixels with a depth in both frames where the two agree to the bit.
-double agreement(const DepthFrame& a, const DepthFrame& b) {
-  double both = 0.0;
-  double same = 0.0;
-  for (std::size_t i = 0; i < a.depth_m.size(); ++i) {
-    if (!std::isfinite(a.depth_m[i]) || !std::isfinite(b.depth_m[i])) continue;
-    both += 1.0;
-    same += a.depth_m[i] == b.depth_m[i] ? 1.0 : 0.0;
-  }
-  return same / both;
-}
-
 TEST(DepthNoise, IsKeyedBySeedTickAndCameraNotByThreads) {
   CameraConfig config;
   config.width_px = 161;  // no multiple of 4
   config.height_px = 119;
+  const RayScene scene(world_of(test::random_soup(300, 5.0, {6, 0, 0}, 5), true));
   for (const DepthNoise model : kModels) {
     config.noise.model = model;
-    const DepthFrame frame = noisy_frame(config, 0, {1, 2}, 1);
-    for (const int threads : {1, 2, 5}) {
-      const DepthFrame again = noisy_frame(config, 0, {1, 2}, threads);
-      ASSERT_EQ(std::memcmp(frame.depth_m.data(), again.depth_m.data(),
-                            frame.depth_m.size() * sizeof(float)),
-                0);
-    }
+    const auto depths = [&](int camera, const NoiseKey& key, int threads) {
+      return capture_depth(scene, make_camera_model(config), camera,
+                           T_world_body({{-3, 1, 2}, 0.1}), key, threads)
+          .depth_m;
+    };
+    const std::vector<float> first = depths(0, {1, 2}, 1);
+    EXPECT_EQ(std::memcmp(first.data(), depths(0, {1, 2}, 5).data(), 4 * first.size()), 0);
     // floats of a few metres carry 23 bits: two noises agree on next to no pixel
-    EXPECT_LT(agreement(frame, noisy_frame(config, 0, {2, 2}, 1)), 1e-3);
-    EXPECT_LT(agreement(frame, noisy_frame(config, 0, {1, 3}, 1)), 1e-3);
-    EXPECT_LT(agreement(frame, noisy_frame(config, 1, {1, 2}, 1)), 1e-3);
+    EXPECT_LT(test::agreement(first, depths(0, {2, 2}, 1)), 1e-3);
+    EXPECT_LT(test::agreement(first, depths(0, {1, 3}, 1)), 1e-3);
+    EXPECT_LT(test::agreement(first, depths(1, {1, 2}, 1)), 1e-3);
   }
 }
 
@@ -235,50 +202,40 @@ TEST(DepthNoise, PixelsOfAFrameAreIndependent) {
   }
 }
 
-TEST(DepthNoise, NearTheMinimumReadingsAreInvalidNeverFree) {
-  CameraConfig config = narrow_camera(DepthNoise::released);
-  config.range_min_m = 4.0;
-  const CameraModel camera = make_camera_model(config);
-  // a wall just too near is never read, whatever the noise; one just far enough half the time
-  const RayScene near(world_of(slanted_wall(3.99, 0.0), false));
-  for (const float d : capture_depth(near, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
-    ASSERT_TRUE(std::isnan(d));
-  }
-  const RayScene at(world_of(slanted_wall(4.0001, 0.0), false));
-  double invalid = 0.0;
-  for (const float d : capture_depth(at, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
-    ASSERT_NE(d, kNoReturn);
-    ASSERT_FALSE(d < 4.0F);
-    invalid += std::isnan(d) ? 1.0 : 0.0;
-  }
-  EXPECT_NEAR(invalid / (240 * 160), 0.5, 0.011);  // four of 0.5 / sqrt(38400)
+/// Depths of a wall across the axis, or of nothing at 0.
+std::vector<float> depths_of_wall(const CameraConfig& config, double z_m) {
+  const TriangleMesh wall = z_m > 0.0 ? slanted_wall(z_m, 0.0) : TriangleMesh{};
+  return capture_depth(RayScene(world_of(wall, false)), make_camera_model(config), 0,
+                       Isometry::Identity(), {}, 1)
+      .depth_m;
 }
 
-TEST(DepthNoise, AtTheMaximumTheReadingDecides) {
+TEST(DepthNoise, NearTheMinimumReadingsAreInvalidNeverFreeAndAtTheMaximumTheReadingDecides) {
   CameraConfig config = narrow_camera(DepthNoise::released);
+  config.range_min_m = 4.0;
   config.range_max_m = 8.0;
-  const CameraModel camera = make_camera_model(config);
+  const auto share_of = [&](double z_m, const auto& is_so) {
+    const std::vector<float> depths_m = depths_of_wall(config, z_m);
+    for (const float d : depths_m)
+      EXPECT_TRUE(std::isnan(d) || d == kNoReturn || (d >= 4 && d <= 8));
+    return static_cast<double>(std::ranges::count_if(depths_m, is_so)) / (240 * 160);
+  };
+  const auto is_invalid = [](float d) { return std::isnan(d); };
+  const auto is_beyond = [](float d) { return d == kNoReturn; };
+  // a wall just too near is never read, whatever the noise; one just far enough half the time
+  EXPECT_EQ(share_of(3.99, is_invalid), 1.0);
+  EXPECT_NEAR(share_of(4.0001, is_invalid), 0.5, 0.011);  // four of 0.5 / sqrt(38400)
+  EXPECT_EQ(share_of(4.0001, is_beyond), 0.0);
   // deviations of 0.16 m: from one beyond the maximum 16 % still read within it, and as many from
   // one before it read beyond; that is the normal law's tail, to four binomial deviations
-  for (const double sigmas : {-1.0, 0.0, 1.0}) {
-    const double z_m = 8.0 + 0.16 * sigmas;
-    const RayScene scene(world_of(slanted_wall(z_m, 0.0), false));
-    double beyond = 0.0;
-    for (const float d : capture_depth(scene, camera, 0, Isometry::Identity(), {}, 1).depth_m) {
-      ASSERT_FALSE(std::isnan(d));
-      ASSERT_TRUE(d <= 8.0F || d == kNoReturn);
-      beyond += d == kNoReturn ? 1.0 : 0.0;
-    }
+  for (const double z_m : {7.84, 8.0, 8.16}) {
     const double expected = 0.5 * std::erfc((8.0 - z_m) / (0.0025 * z_m * z_m) / std::sqrt(2.0));
-    EXPECT_NEAR(beyond / (240 * 160), expected, 0.011) << z_m;
+    EXPECT_NEAR(share_of(z_m, is_beyond), expected, 0.011) << z_m;
+    EXPECT_EQ(share_of(z_m, is_invalid), 0.0) << z_m;
   }
-  const RayScene empty(world_of({}, false));
   for (const DepthNoise model : kModels) {
     config.noise.model = model;
-    const CameraModel noisy = make_camera_model(config);
-    for (const float d : capture_depth(empty, noisy, 0, Isometry::Identity(), {}, 1).depth_m) {
-      ASSERT_EQ(d, kNoReturn);
-    }
+    EXPECT_EQ(share_of(0.0, is_beyond), 1.0) << "nothing is there";
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace gnbv {
 
-class StreamingFlight final : public Flight {
+class StreamingFlight : public Flight {
  public:
   explicit StreamingFlight(std::unique_ptr<Flight> flight) : flight_(std::move(flight)) {}
 

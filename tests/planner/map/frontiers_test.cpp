@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -38,21 +39,13 @@ struct Map {
   SurfaceCloud cloud;
 };
 
-/// A row of voxels along x, every `stride`-th one.
-Map row(int voxels, int stride = 1) {
-  Map map;
-  for (int i = 0; i < voxels; ++i) map.occupy(Vec3(-7.9 + 0.2 * stride * i, 0.1, 1.1));
-  return map;
-}
-
 TEST(Frontier, IsOccupiedAndThinlySampledButNotEmpty) {
   Map map;
   map.occupy(Vec3(0.1, 0.1, 1.1), 3);
   map.occupy(Vec3(2.1, 0.1, 1.1), 300);  // 300 points within the search radius of one another
   map.occupy(Vec3(4.1, 0.1, 1.1), 0);
   const auto frontier_at = [&](double x_m) {
-    const GridGeometry& g = map.grid.geometry();
-    return is_frontier({}, map.grid, map.cloud, g.index_of(g.key_of(Vec3(x_m, 0.1, 1.1))));
+    return is_frontier({}, map.grid, map.cloud, voxel_at(map.grid, Vec3(x_m, 0.1, 1.1)));
   };
   EXPECT_TRUE(frontier_at(0.1));
   EXPECT_FALSE(frontier_at(2.1));
@@ -68,8 +61,7 @@ TEST(Frontier, PointsInClearedVoxelsCountWhereAsked) {
     map.occupy(p_m, 3);
     if (i == 2) continue;
     // as rays that pass a thin part do
-    const VoxelIndex v = map.grid.geometry().index_of(map.grid.geometry().key_of(p_m));
-    for (int miss = 0; miss < 8; ++miss) map.grid.apply({.free = {v}, .occupied = {}});
+    clear(map.grid, {voxel_at(map.grid, p_m)});
   }
   FrontierConfig config;
   config.min_cluster_voxels = 1;
@@ -80,100 +72,73 @@ TEST(Frontier, PointsInClearedVoxelsCountWhereAsked) {
   EXPECT_EQ(map.clusters(config)[0].voxels.size(), 5U);
 }
 
-TEST(Frontier, ClustersJoinUpToTwoVoxelsApart) {
-  FrontierConfig config;
-  config.max_extent_m = 0.0;
-  EXPECT_EQ(row(6, 2).clusters(config).size(), 1U);
-  EXPECT_EQ(row(6, 3).clusters(config).size(), 0U);  // six clusters of one voxel: too small
-  config.min_cluster_voxels = 1;
-  EXPECT_EQ(row(6, 3).clusters(config).size(), 6U);
-  config.neighbour_voxels = 3;
-  EXPECT_EQ(row(6, 3).clusters(config).size(), 1U);
-}
-
-TEST(Frontier, ClustersSmallerThanTheLeastAreLeftOut) {
-  EXPECT_EQ(row(4).clusters({}).size(), 0U);
-  EXPECT_EQ(row(5).clusters({}).size(), 1U);
-}
-
-TEST(Frontier, CentroidIsTheMeanOfTheVoxelsCentres) {
-  const auto clusters = row(5).clusters({});
-  ASSERT_EQ(clusters.size(), 1U);
-  EXPECT_NEAR((clusters[0].centroid_world_m - Vec3(-7.5, 0.1, 1.1)).norm(), 0.0, 1e-12);
-}
-
-TEST(Frontier, LargeClustersAreCutAndNothingIsLost) {
-  const Map map = row(80);  // 16 m
-  FrontierConfig config;
-  const auto cut = map.clusters(config);
-  EXPECT_EQ(cut.size(), 8U);  // cells of 2 m
-  std::set<VoxelIndex> voxels;
-  for (const FrontierCluster& cluster : cut) {
-    const auto& all = cluster.voxels;
-    EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
-    EXPECT_LE(static_cast<double>(all.back() - all.front() + 1) * 0.2, 2.0 + 1e-9);
-    voxels.insert(all.begin(), all.end());
+/// Voxels within the neighbourhood are of one component: pair by pair.
+std::vector<std::set<VoxelIndex>> components(const Map& map, const FrontierConfig& config) {
+  const GridGeometry& grid = map.grid.geometry();
+  std::vector<std::set<VoxelIndex>> all;
+  for (const VoxelIndex v : map.cloud.voxels()) {
+    std::set<VoxelIndex> joined = {v};
+    std::erase_if(all, [&](const std::set<VoxelIndex>& other) {
+      const bool is_near = std::ranges::any_of(other, [&](VoxelIndex w) {
+        int apart = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          apart = std::max(apart, std::abs(grid.key_at(v)[i] - grid.key_at(w)[i]));
+        }
+        return apart <= config.neighbour_voxels;
+      });
+      if (is_near) joined.insert(other.begin(), other.end());
+      return is_near;
+    });
+    all.push_back(std::move(joined));
   }
-  EXPECT_EQ(voxels.size(), 80U);
-  config.max_extent_m = 0.0;  // the paper to the letter
-  EXPECT_EQ(map.clusters(config).size(), 1U);
+  const auto least = static_cast<std::size_t>(config.min_cluster_voxels);
+  std::erase_if(all, [&](const auto& component) { return component.size() < least; });
+  return all;
 }
 
-TEST(Frontier, CutsLoseNoVoxelOfAClusterThatIsLargeEnough) {
-  // the lattice cuts 10, 10 and 2 voxels; four others, apart from them, are too few
-  Map map = row(22);
-  for (int i = 0; i < 4; ++i) map.occupy(Vec3(0.1 + 0.2 * i, 5.1, 1.1));
-  FrontierConfig config;
-  for (const double extent_m : {0.4, 1.0, 2.0, 3.0}) {
-    config.max_extent_m = extent_m;
-    std::multiset<VoxelIndex> voxels;
-    for (const FrontierCluster& cluster : map.clusters(config)) {
-      voxels.insert(cluster.voxels.begin(), cluster.voxels.end());
-    }
-    std::multiset<VoxelIndex> expected;
-    config.max_extent_m = 0.0;
-    for (const FrontierCluster& cluster : map.clusters(config)) {
-      expected.insert(cluster.voxels.begin(), cluster.voxels.end());
-    }
-    EXPECT_EQ(expected.size(), 22U);
-    EXPECT_EQ(voxels, expected) << extent_m;
-  }
-}
-
-TEST(Frontier, ClustersAreTheComponentsOfTheNeighbourhoodGraph) {
-  Map map;
-  std::vector<Vec3> seeds;
-  for (int i = 0; i < 60; ++i) {  // a scattered pattern, some of it connected
+TEST(Frontier, ClustersAreTheComponentsOfTheNeighbourhoodGraphCutWithoutLoss) {
+  Map map;  // a scattered pattern, some of it connected, and a row of 16 m
+  for (int i = 0; i < 60; ++i) {
     map.occupy(Vec3(std::fmod(1.37 * i * i, 7.0), std::fmod(0.73 * i, 5.0), 1.1));
   }
-  FrontierConfig config;
-  config.min_cluster_voxels = 1;
-  config.max_extent_m = 0.0;
-  const auto clusters = map.clusters(config);
-  // brute force: voxel pairs within the neighbourhood are in the same cluster, others never
-  std::map<VoxelIndex, std::size_t> cluster_of;
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    for (const VoxelIndex v : clusters[c].voxels) cluster_of[v] = c;
-  }
-  EXPECT_EQ(cluster_of.size(), map.cloud.voxels().size());
-  std::map<VoxelIndex, VoxelIndex> root;
-  for (const auto& [v, c] : cluster_of) root[v] = v;
-  const auto find = [&](VoxelIndex v) {
-    while (root[v] != v) v = root[v];
-    return v;
-  };
-  for (const auto& [a, ca] : cluster_of) {
-    for (const auto& [b, cb] : cluster_of) {
-      const Key ka = map.grid.geometry().key_at(a);
-      const Key kb = map.grid.geometry().key_at(b);
-      int apart = 0;
-      for (std::size_t i = 0; i < 3; ++i) apart = std::max(apart, std::abs(ka[i] - kb[i]));
-      if (apart <= 2) root[find(a)] = find(b);
+  for (int i = 0; i < 80; ++i) map.occupy(Vec3(-7.9 + 0.2 * i, -6.1, 1.1));
+  std::size_t cut = 0;
+  for (const int neighbours : {1, 2, 3}) {
+    for (const int least : {1, 5}) {
+      FrontierConfig config{.neighbour_voxels = neighbours, .min_cluster_voxels = least};
+      const auto expected = components(map, config);
+      std::set<VoxelIndex> expected_voxels;
+      for (const auto& one : expected) expected_voxels.insert(one.begin(), one.end());
+      for (const double extent_m : {0.0, 0.4, 1.0, 2.0}) {  // 0: the paper to the letter
+        config.max_extent_m = extent_m;
+        const auto clusters = map.clusters(config);
+        std::multiset<VoxelIndex> voxels;
+        for (const FrontierCluster& cluster : clusters) {
+          EXPECT_TRUE(std::ranges::is_sorted(cluster.voxels));
+          Box3 box_m;
+          Vec3 sum_m = Vec3::Zero();
+          for (const VoxelIndex v : cluster.voxels) {
+            const Vec3 center_m = map.grid.geometry().center_m(map.grid.geometry().key_at(v));
+            box_m.extend(center_m);
+            sum_m += center_m;
+          }
+          const auto size = static_cast<double>(cluster.voxels.size());
+          EXPECT_LT((cluster.centroid_world_m - sum_m / size).norm(), 1e-12);
+          voxels.insert(cluster.voxels.begin(), cluster.voxels.end());
+          const std::set<VoxelIndex> own(cluster.voxels.begin(), cluster.voxels.end());
+          if (extent_m == 0.0) {
+            EXPECT_EQ(std::ranges::count(expected, own), 1);
+          } else {
+            EXPECT_LE(box_m.sizes().maxCoeff() + 0.2, extent_m + 1e-9);
+          }
+        }
+        EXPECT_EQ(voxels,
+                  (std::multiset<VoxelIndex>(expected_voxels.begin(), expected_voxels.end())));
+        cut += clusters.size() > expected.size() ? 1 : 0;
+      }
     }
   }
-  for (const auto& [a, ca] : cluster_of) {
-    for (const auto& [b, cb] : cluster_of) EXPECT_EQ(ca == cb, find(a) == find(b));
-  }
+  EXPECT_GT(cut, 10U);
 }
 
 }  // namespace

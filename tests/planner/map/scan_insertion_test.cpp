@@ -6,15 +6,12 @@
 #include <bit>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "tests/planner/map/random_points.hpp"
 #include "tests/support/at_simd_level.hpp"
 
 namespace gnbv {
 namespace {
-
-const Box3 kBox_m(Vec3(-3, -2.5, 0), Vec3(3.1, 2.5, 2));
 
 /// Float log-odds bit for bit, and whether the node exists, over all voxels of the grid.
 void expect_equal(const OccupancyGrid& grid, const OctomapTwin& twin) {
@@ -34,11 +31,12 @@ void expect_equal(const OccupancyGrid& grid, const OctomapTwin& twin) {
 
 /// Hits, clearing rays and floor, ends in and out of the box, some on voxel borders or
 /// axis-aligned.
-std::vector<ScanRay> random_rays(Random& random, const Vec3f& origin_m, int count) {
-  const Box3 around_m(kBox_m.min() - Vec3(2, 2, 1), kBox_m.max() + Vec3(2, 2, 2));
+std::vector<ScanRay> random_rays(Random& random, const Box3& box_m, const Vec3f& origin_m,
+                                 int count) {
+  const Box3 around_m(box_m.min() - Vec3(2, 2, 1), box_m.max() + Vec3(2, 2, 2));
   std::vector<ScanRay> rays;
   for (int i = 0; i < count; ++i) {
-    Vec3f end_m = random.point_in(around_m);
+    Vec3f end_m = random.point_in(random.chance(0.3) ? box_m : around_m);
     if (random.chance(0.1)) end_m.head<2>() = origin_m.head<2>();
     if (random.chance(0.1)) end_m[1] = std::round(end_m[1] * 5.0F) / 5.0F;
     if (random.chance(0.1)) end_m = origin_m + 0.02F * (end_m - origin_m);
@@ -65,33 +63,34 @@ struct Both {
 class ScanInsertionAt : public AtSimdLevel {};
 
 TEST_P(ScanInsertionAt, GridEqualsOctomapVoxelByVoxel) {
-  for (const double resolution_m : {0.2, 0.07, 0.05}) {
-    Both maps(kBox_m, resolution_m);
+  struct Case {
+    Vec3 size_m;
+    double resolution_m, beyond_m;  // how far outside rays begin
+  };
+  for (const auto& [size_m, resolution_m, beyond_m] :
+       std::vector<Case>{{{6.1, 5, 2}, 0.2, 0.0},
+                         {{6.1, 5, 2}, 0.07, 0.0},
+                         {{6.1, 5, 2}, 0.05, 0.0},
+                         {{6.1, 5, 2}, 0.2, 1.0},
+                         {{6, 0.2, 0.2}, 0.2, 0.0},  // rows, and layers
+                         {{0.2, 6, 0.2}, 0.2, 0.0},
+                         {{0.2, 0.2, 6}, 0.2, 0.0},
+                         {{6, 4, 0.2}, 0.2, 0.0},
+                         {{0.2, 4, 6}, 0.2, 0.0}}) {
+    const Box3 box_m(Vec3(-3, -2.5, 0), Vec3(-3, -2.5, 0) + size_m);
+    const Vec3 margin_m = Vec3::Constant(beyond_m);
+    Both maps(box_m, resolution_m);
     Random random(23);
-    for (int scan = 0; scan < 9; ++scan) {
-      Vec3f origin_m = random.point_in(kBox_m);
+    for (int scan = 0; scan < (beyond_m > 0.0 ? 60 : 9); ++scan) {
+      Vec3f origin_m = random.point_in(Box3(box_m.min() - margin_m, box_m.max() + margin_m));
       if (scan == 3) origin_m = {-4.0F, 0.0F, 1.0F};  // outside, looking in
       if (scan == 5) origin_m = {0.0F, 0.2F, 1.0F};   // on voxel borders
-      maps.insert(origin_m, random_rays(random, origin_m, 400));
+      // beside a face by a hair, as a vehicle on the workspace's border
+      if (scan % 9 == 7) origin_m.x() = static_cast<float>(box_m.min().x()) - 1e-3F;
+      maps.insert(origin_m, random_rays(random, box_m, origin_m, 300));
     }
     expect_equal(maps.grid, maps.twin);
   }
-}
-
-TEST_P(ScanInsertionAt, RaysFromOutsideTheGridEqualOctomapVoxelByVoxel) {
-  Both maps(kBox_m);
-  Random random(29);
-  const Box3 around_m(kBox_m.min() - Vec3::Constant(1.0), kBox_m.max() + Vec3::Constant(1.0));
-  int outside = 0;
-  while (outside < 60) {
-    Vec3f origin_m = random.point_in(around_m);
-    // some beside a face by a hair, as a vehicle on the workspace's border
-    if (outside % 3 == 0) origin_m.x() = static_cast<float>(kBox_m.min().x()) - 1e-3F;
-    if (kBox_m.contains(origin_m.cast<double>())) continue;
-    ++outside;
-    maps.insert(origin_m, random_rays(random, origin_m, 200));
-  }
-  expect_equal(maps.grid, maps.twin);
 }
 
 // where borders of two or three axes are crossed at once, OctoMap's order decides
@@ -104,23 +103,8 @@ TEST_P(ScanInsertionAt, RaysAlongDiagonalsEqualOctomapVoxelByVoxel) {
       const Eigen::Vector3i towards(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
       rays.push_back({origin_m + 0.8F * towards.cast<float>(), false});
     }
+    rays.resize(35, {origin_m + Vec3f(0, 0, 50), false});  // side by side out of the grid
     maps.insert(origin_m, rays);
-    expect_equal(maps.grid, maps.twin);
-  }
-}
-
-TEST_P(ScanInsertionAt, GridsOfOneRowOrLayerEqualOctomapVoxelByVoxel) {
-  for (const Vec3& size_m : {Vec3(6, 0.2, 0.2), Vec3(0.2, 6, 0.2), Vec3(0.2, 0.2, 6),
-                             Vec3(6, 4, 0.2), Vec3(0.2, 4, 6)}) {
-    const Box3 box_m(Vec3::Zero(), size_m);
-    Both maps(box_m);
-    Random random(41);
-    for (int scan = 0; scan < 5; ++scan) {
-      const Vec3f origin_m = random.point_in(box_m);
-      std::vector<ScanRay> rays;
-      for (int i = 0; i < 100; ++i) rays.push_back({random.point_in(box_m), i % 2 == 0});
-      maps.insert(origin_m, rays);
-    }
     expect_equal(maps.grid, maps.twin);
   }
 }
@@ -139,41 +123,15 @@ TEST_P(ScanInsertionAt, RaysOfAScanBeforeLeaveNothingBehind) {
             FanWalker(grid).compute_update(origin_m, one).free);
 }
 
-TEST_P(ScanInsertionAt, DepthFramesEqualOctomapVoxelByVoxel) {
-  CameraConfig camera_config;
-  camera_config.width_px = 80;
-  camera_config.height_px = 60;
-  camera_config.pitch_rad = deg_to_rad(20.0);
-  const CameraModel camera = make_camera_model(camera_config);
-  const AnalyticScene scene = example_scene();
-  Both maps(Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
-  for (int view = 0; view < 12; ++view) {
-    const double angle_rad = view * kPi / 6.0;
-    const ViewPose pose = {Vec3(8.0 * std::cos(angle_rad), 8.0 * std::sin(angle_rad), 5.0),
-                           angle_rad + kPi};
-    const DepthFrame frame = analytic_depth(scene, camera, T_world_body(pose));
-    const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
-    maps.insert(origin_m, rays_of(frame, camera, 0.3));
-  }
-  EXPECT_GT(maps.grid.occupied_count(), 300U);
-  expect_equal(maps.grid, maps.twin);
-}
-
-std::vector<LidarScan> example_scans(const LidarConfig& lidar, int count) {
-  const AnalyticScene scene = example_scene();
-  std::vector<LidarScan> scans;
-  for (int s = 0; s < count; ++s) {
-    const ViewPose pose = {Vec3(-9.0, -9.0 + 0.05 * s, 7.5 - 0.05 * s), 0.4};
-    scans.push_back(analytic_scan(scene, lidar, T_world_body(pose)));
-  }
-  return scans;
-}
-
 TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
   LidarConfig lidar;
   lidar.beams = 120;
   const LidarModel model = make_lidar_model(lidar);
-  const std::vector<LidarScan> scans = example_scans(lidar, 70);  // more than one batch
+  std::vector<LidarScan> scans;
+  for (int s = 0; s < 70; ++s) {  // more than one batch
+    const ViewPose pose = {Vec3(-9.0, -9.0 + 0.05 * s, 7.5 - 0.05 * s), 0.4};
+    scans.push_back(analytic_scan(example_scene(), lidar, T_world_body(pose)));
+  }
   OccupancyGrid grid(OccupancyConfig{}, Box3(Vec3(-10, -10, 0), Vec3(10, 10, 8)));
   OctomapTwin twin(grid.config());
   ScanInserter(grid.geometry()).insert_scans(grid, scans, {&model, 1}, 0.3, 2);
@@ -181,16 +139,6 @@ TEST(ScanInsertion, LidarSweepsEqualOctomapVoxelByVoxel) {
     twin.insert(scan.T_world_lidar.translation().cast<float>(), rays_of(scan, model, 0.3));
   }
   expect_equal(grid, twin);
-}
-
-TEST_P(ScanInsertionAt, RaysThatLeaveTheGridSideBySideStopThere) {
-  const GridGeometry grid(kBox_m, 0.2);
-  const Vec3f origin_m(0.1F, 0.1F, 1.1F);
-  const std::vector<ScanRay> rays(8, {Vec3f(0.1F, 0.1F, 50.0F), false});
-  const ScanUpdate update = FanWalker(grid).compute_update(origin_m, rays);
-  std::vector<VoxelIndex> expected;
-  for (std::int32_t z = 5; z < 10; ++z) expected.push_back(grid.index_of({0, 0, z}));
-  EXPECT_EQ(update.free, expected);
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(ScanInsertionAt);

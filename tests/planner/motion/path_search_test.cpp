@@ -5,6 +5,7 @@
 
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -15,17 +16,11 @@ constexpr double kRadius_m = 0.6;
 /// Free space with a wall at x = 0 from y = -6 up to `end_y_m`, full height.
 OccupancyGrid wall_up_to(double end_y_m, bool is_rest_free = true) {
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace);
-  ScanUpdate update;
-  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < voxels; ++v) {
-    const Vec3 p_m = grid.geometry().center_m(grid.geometry().key_at(v));
-    if (std::abs(p_m.x()) < 0.2 && p_m.y() < end_y_m) {
-      update.occupied.push_back(v);
-    } else if (is_rest_free) {
-      update.free.push_back(v);
-    }
-  }
-  grid.apply(update);
+  const auto is_wall = [&](const Vec3& p_m) {
+    return std::abs(p_m.x()) < 0.2 && p_m.y() < end_y_m;
+  };
+  if (is_rest_free) clear(grid, voxels_where(grid, everywhere));
+  hit(grid, voxels_where(grid, is_wall));
   return grid;
 }
 
@@ -61,16 +56,15 @@ TEST(FindPath, GoesAroundAWallAndStaysClear) {
   EXPECT_LE(length_m, 1.25 * taut_m);
 }
 
-TEST(FindPath, IsStraightWhereNothingIsInTheWay) {
-  const FoundPath found = search(wall_up_to(-7.0));
-  EXPECT_FALSE(found.rejected);
-  EXPECT_TRUE(found.via_world_m.empty());
-}
-
-TEST(FindPath, FindsNothingThroughAClosedWallOrUnknownSpace) {
+TEST(FindPath, SaysWhyThereIsNoWay) {
   const PathSearchConfig all = {.max_expansions = 10000};  // that the box has
+  const Box3 short_of_the_gap_m(Vec3(-6, -6, 0), Vec3(6, 1.5, 6));
+  EXPECT_EQ(search(wall_up_to(-7.0)).rejected, std::nullopt);
+  EXPECT_TRUE(search(wall_up_to(-7.0)).via_world_m.empty()) << "straight";
   EXPECT_EQ(search(wall_up_to(7.0), all).rejected, Rejection::path_blocked);
-  EXPECT_EQ(search(wall_up_to(2.0, false), all).rejected, Rejection::path_blocked);
+  EXPECT_EQ(search(wall_up_to(2.0, false), all).rejected, Rejection::path_blocked) << "unknown";
+  EXPECT_EQ(search(wall_up_to(2.0), {}, short_of_the_gap_m).rejected, Rejection::path_blocked);
+  EXPECT_EQ(search(wall_up_to(2.0), {.max_expansions = 5}).rejected, Rejection::search_limit);
 }
 
 TEST(FindPath, CrossesUnknownSpaceWhereThatIsAllowed) {
@@ -81,23 +75,13 @@ TEST(FindPath, CrossesUnknownSpaceWhereThatIsAllowed) {
   EXPECT_TRUE(is_path_clear(grid, kFrom, found.via_world_m.front(), kRadius_m));
 }
 
-TEST(FindPath, SaysThatItEndedAtItsLimit) {
-  EXPECT_EQ(search(wall_up_to(2.0), {.max_expansions = 5}).rejected, Rejection::search_limit);
-}
-
 /// On the near side of a wall with an opening at its far end there are 44,000 nodes to look at.
 TEST(FindPath, InALargerBoxItLooksAtMore) {
   constexpr double kLong_m = 40.0;
   const Box3 hall_m(Vec3(-kLong_m, -kLong_m, 0), Vec3(kLong_m, kLong_m, 3));
   OccupancyGrid grid({.resolution_m = 0.5}, hall_m);
-  ScanUpdate update;
-  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < voxels; ++v) {
-    const Vec3 p_m = grid.geometry().center_m(grid.geometry().key_at(v));
-    const bool is_wall = std::abs(p_m.x()) < 0.5 && p_m.y() < 35.0;
-    (is_wall ? update.occupied : update.free).push_back(v);
-  }
-  grid.apply(update);
+  clear(grid, voxels_where(grid, everywhere));
+  fill(grid, Box3(Vec3(-0.5, -kLong_m, 0), Vec3(0.5, 35.0, 3)));
   const FreeSpace space{grid, hall_m, kNoBoxes, kRadius_m, false};
   const auto rejected = [&](int max_expansions) {
     return find_path({max_expansions}, space, Vec3(-3, -35, 1.5), Vec3(3, -35, 1.5)).rejected;
@@ -109,13 +93,7 @@ TEST(FindPath, InALargerBoxItLooksAtMore) {
 /// No camera sees the voxels that the vehicle is in.
 TEST(FindPath, BeginsInVoxelsThatNobodyHasSeen) {
   OccupancyGrid grid(OccupancyConfig{}, kWorkspace);
-  ScanUpdate update;
-  const auto voxels = static_cast<VoxelIndex>(grid.geometry().voxel_count());
-  for (VoxelIndex v = 0; v < voxels; ++v) {
-    const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
-    if ((center_m - kFrom).norm() > 0.5) update.free.push_back(v);
-  }
-  grid.apply(update);
+  clear(grid, voxels_where(grid, [](const Vec3& p_m) { return (p_m - kFrom).norm() > 0.5; }));
   EXPECT_FALSE(search(grid).rejected);
   EXPECT_TRUE(is_line_free(grid, kFrom, kTo, kRadius_m));
   EXPECT_FALSE(is_line_free(grid, kFrom, kTo, 0.3)) << "more than the vehicle is large";
@@ -132,18 +110,6 @@ TEST(FindPath, AsksAtEachNodeWhetherToStop) {
   };
   const FreeSpace space{grid, kWorkspace, kNoBoxes, kRadius_m, false};
   EXPECT_THROW(find_path({}, space, kFrom, kTo, stop), std::runtime_error);
-}
-
-TEST(FindPath, StaysInTheNavigationBox) {
-  // the only opening, beyond y = 2, lies outside the box
-  const Box3 navigation(Vec3(-6, -6, 0), Vec3(6, 1.5, 6));
-  EXPECT_EQ(search(wall_up_to(2.0), {}, navigation).rejected, Rejection::path_blocked);
-}
-
-TEST(PathLength, IsTheSumOfItsLegs) {
-  EXPECT_EQ(path_length_m(Vec3(0, 0, 0), {}, Vec3(3, 4, 0)), 5.0);
-  const std::vector<Vec3> via = {Vec3(3, 0, 0)};
-  EXPECT_EQ(path_length_m(Vec3(0, 0, 0), via, Vec3(3, 4, 0)), 7.0);
 }
 
 TEST(LineFree, AsksEveryVoxelOfTheLine) {

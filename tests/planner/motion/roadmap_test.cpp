@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/planner/tour/free_grid.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -31,6 +31,22 @@ bool is_reachable(const Roadmap& roadmap, Roadmap::Node node) {
   return std::binary_search(nodes.begin(), nodes.end(), node);
 }
 
+/// The length of a row's way, which is that of its legs, each along an open line.
+double checked_length_m(World& world, Roadmap::Node from, const Vec3& from_m, Roadmap::Node to) {
+  std::vector<Vec3> way_m = world.roadmap.via_world_m(from, to);
+  way_m.push_back(world.roadmap.p_world_m(to));
+  double sum_m = 0.0;
+  Vec3 at_m = from_m;
+  for (const Vec3& p_m : way_m) {
+    EXPECT_TRUE(world.space.is_line_open(world.grid, at_m, p_m) ||
+                world.space.is_line_open(world.grid, p_m, at_m));
+    sum_m += (p_m - at_m).norm();
+    at_m = p_m;
+  }
+  EXPECT_NEAR(sum_m, static_cast<double>(world.roadmap.row_m(from)[to]), 1e-3);
+  return sum_m;
+}
+
 TEST(Roadmap, InEmptySpaceWaysAreNearlyStraight) {
   World world(free_grid(kBox));
   EXPECT_GT(world.roadmap.size(), 13U * 13U * 4U);
@@ -52,20 +68,10 @@ TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
   const auto behind = world.roadmap.add(Vec3(-5, 5, 1));
   world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
   ASSERT_TRUE(is_reachable(world.roadmap, behind));
-  const float length_m = world.roadmap.row_m(Roadmap::here())[behind];
+  const double length_m = checked_length_m(world, Roadmap::here(), Vec3(-5, -5, 1), behind);
   const double least_m = 2.0 * std::hypot(9.0, 5.0);  // by the wall's end
   EXPECT_GT(length_m, least_m);
   EXPECT_LT(length_m, 1.15 * least_m);
-  std::vector<Vec3> way_m = world.roadmap.via_world_m(Roadmap::here(), behind);
-  way_m.insert(way_m.begin(), Vec3(-5, -5, 1));
-  way_m.push_back(world.roadmap.p_world_m(behind));
-  double sum_m = 0.0;
-  for (std::size_t i = 1; i < way_m.size(); ++i) {
-    EXPECT_TRUE(world.space.is_line_open(world.grid, way_m[i - 1], way_m[i]) ||
-                world.space.is_line_open(world.grid, way_m[i], way_m[i - 1]));
-    sum_m += (way_m[i] - way_m[i - 1]).norm();
-  }
-  EXPECT_NEAR(sum_m, static_cast<double>(length_m), 1e-3);
 }
 
 TEST(Roadmap, BehindAClosedWallNothingIsReached) {
@@ -99,28 +105,15 @@ TEST(Roadmap, AWayThatIsKeptLearnsOfPlacesThatOpen) {
   world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
   const double straight_m =
       (world.roadmap.p_world_m(from) - world.roadmap.p_world_m(within)).norm();
-  const float length_m = world.roadmap.row_m(from)[within];
+  const double length_m = checked_length_m(world, from, world.roadmap.p_world_m(from), within);
   EXPECT_GE(length_m, straight_m - 1e-4);
   EXPECT_LE(length_m, 1.3 * straight_m);
-  double sum_m = 0.0;
-  Vec3 at_m = world.roadmap.p_world_m(from);
-  for (const Vec3& p_m : world.roadmap.via_world_m(from, within)) {
-    sum_m += (p_m - at_m).norm();
-    at_m = p_m;
-  }
-  sum_m += (world.roadmap.p_world_m(within) - at_m).norm();
-  EXPECT_NEAR(sum_m, static_cast<double>(length_m), 1e-3);
 }
 
 TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
-  OccupancyGrid grid({.resolution_m = 0.2}, kBox);
+  OccupancyGrid grid(OccupancyConfig{}, kBox);
   const Vec3 here_m(-4.9, -4.9, 1.1);
-  const VoxelIndex own = grid.geometry().index_of(grid.geometry().key_of(here_m));
-  std::vector<VoxelIndex> others;
-  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
-    if (v != own) others.push_back(v);
-  }
-  grid.apply({.free = others, .occupied = {}});
+  clear(grid, voxels_where(grid, [&](const Vec3& p_m) { return (p_m - here_m).norm() > 0.1; }));
   World world(std::move(grid));
   world.roadmap.follow(world.grid, world.space, here_m);
   EXPECT_TRUE(is_reachable(world.roadmap, 1));

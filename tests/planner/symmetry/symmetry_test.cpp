@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "planner/map/occupancy_grid.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/map/random_points.hpp"
 
 namespace gnbv {
@@ -80,23 +82,14 @@ template <typename IsKnown>
 OccupancyGrid measured_grid(const Blobs& blobs, const std::vector<Vec3f>& points_m,
                             const IsKnown& is_known) {
   OccupancyGrid grid({}, kBlobSpace);
-  const GridGeometry& geometry = grid.geometry();
-  ScanUpdate update;
-  std::vector<bool> has_point(geometry.voxel_count());
-  for (const Vec3f& p_m : points_m) has_point[geometry.index_of(geometry.key_of(p_m))] = true;
-  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
-    const Vec3 center_m = geometry.center_m(geometry.key_at(v));
-    if (has_point[v]) {
-      update.occupied.push_back(v);
-    } else if (is_known(center_m) && !is_inside(blobs, center_m, 0.0)) {
-      update.free.push_back(v);
-    }
-  }
-  grid.apply(update);
+  std::set<VoxelIndex> occupied;
+  for (const Vec3f& p_m : points_m) occupied.insert(voxel_at(grid, p_m.cast<double>()));
+  std::vector<VoxelIndex> free = voxels_where(
+      grid, [&](const Vec3& p_m) { return is_known(p_m) && !is_inside(blobs, p_m, 0.0); });
+  std::erase_if(free, [&](VoxelIndex v) { return occupied.contains(v); });
+  grid.apply({.free = free, .occupied = {occupied.begin(), occupied.end()}});
   return grid;
 }
-
-bool everywhere(const Vec3&) { return true; }
 
 MirrorPlane plane_at(double azimuth_deg, double offset_m) {
   const double azimuth_rad = deg_to_rad(azimuth_deg);
@@ -141,23 +134,19 @@ void expect_plane(const Symmetry& symmetry, const MirrorPlane& truth) {
             0.2);
 }
 
-TEST(MirrorPlane, MirrorsTwiceIntoItself) {
-  const MirrorPlane plane = plane_through(Vec3(1, 2, 3), Vec3(-3, 1, 2));
-  const Vec3 p_m(0.3, -4.0, 5.0);
-  const Vec3 image_m = mirrored(plane, p_m);
-  EXPECT_LT((mirrored(plane, image_m) - p_m).norm(), 1e-12);
-  EXPECT_NEAR(plane.normal_world.dot(0.5 * (p_m + image_m)), plane.offset_m, 1e-12);
-  EXPECT_LT((image_m - p_m).cross(plane.normal_world).norm(), 1e-12);
-}
-
-TEST(MirrorPlane, HasOneNormalFromEitherSide) {
+TEST(MirrorPlane, MirrorsTwiceIntoItselfAndHasOneNormalFromEitherSide) {
+  const Vec3 through_m(1, 2, 3), p_m(0.3, -4.0, 5.0);
   for (const Vec3& normal : {Vec3(1, -2, 3), Vec3(0, 2, -1), Vec3(0, 0, 4)}) {
-    const MirrorPlane plane = plane_through(Vec3(1, 2, 3), normal);
-    const MirrorPlane opposite = plane_through(Vec3(1, 2, 3), -normal);
+    const MirrorPlane plane = plane_through(through_m, normal);
+    const MirrorPlane opposite = plane_through(through_m, -normal);
     EXPECT_EQ(plane.normal_world, opposite.normal_world);
     EXPECT_EQ(plane.offset_m, opposite.offset_m);
     EXPECT_LT((plane.normal_world - normal.normalized()).norm(), 1e-12);
-    EXPECT_NEAR(plane.normal_world.dot(Vec3(1, 2, 3)), plane.offset_m, 1e-12);
+    EXPECT_NEAR(plane.normal_world.dot(through_m), plane.offset_m, 1e-12);
+    const Vec3 image_m = mirrored(plane, p_m);
+    EXPECT_LT((mirrored(plane, image_m) - p_m).norm(), 1e-12);
+    EXPECT_NEAR(plane.normal_world.dot(0.5 * (p_m + image_m)), plane.offset_m, 1e-12);
+    EXPECT_LT((image_m - p_m).cross(plane.normal_world).norm(), 1e-12);
   }
 }
 
@@ -186,21 +175,19 @@ TEST(ClusterPlanes, FindsTheBundlesAmongNoise) {
     EXPECT_LT(distance_m(clusters[i].plane, bundles[i], extent), 0.15);
     EXPECT_GE(clusters[i].votes, i == 0 ? 70U : 50U);
   }
+  EXPECT_TRUE(cluster_planes({}, {}, 0.6).empty());
 }
-
-TEST(ClusterPlanes, OfNothingAreNone) { EXPECT_TRUE(cluster_planes({}, {}, 0.6).empty()); }
 
 TEST(MirrorSupport, CountsWhatFallsOnSurfaceAmidFreeSpaceAndOutside) {
   // voxels of 0.2 m from x = -2 to 2: free, but for surface at x = -1.1 and nothing known at -1.7
   OccupancyGrid grid({}, Box3(Vec3(-2, -1, 0), Vec3(2, 1, 2)));
-  const GridGeometry& geometry = grid.geometry();
-  ScanUpdate update;
-  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
-    const double x_m = geometry.center_m(geometry.key_at(v)).x();
-    if (std::fabs(x_m + 1.7) < 0.01) continue;
-    (std::fabs(x_m + 1.1) < 0.01 ? update.occupied : update.free).push_back(v);
+  const auto at = [&](double x_m) {
+    return voxels_where(grid, [=](const Vec3& p_m) { return std::fabs(p_m.x() - x_m) < 0.01; });
+  };
+  for (double x_m = -1.9; x_m < 2.0; x_m += 0.2) {
+    if (std::fabs(x_m + 1.7) > 0.01 && std::fabs(x_m + 1.1) > 0.01) clear(grid, at(x_m));
   }
-  grid.apply(update);
+  hit(grid, at(-1.1));
   const std::vector<Vec3f> points_m = {
       {1.1F, 0.1F, 1.1F},  // onto the surface
       {0.9F, 0.1F, 1.1F},  // a voxel beside it
@@ -217,12 +204,20 @@ TEST(MirrorSupport, CountsWhatFallsOnSurfaceAmidFreeSpaceAndOutside) {
   EXPECT_DOUBLE_EQ(support.confirmed, 2.0 / 6.0);
 }
 
-TEST(FindSymmetry, FindsTheObliquePlaneOfAMirroredPair) {
+TEST(FindSymmetry, FindsTheObliquePlaneOfAMirroredPairAndMirrorsEveryPoint) {
   for (const auto& [seed, azimuth_deg, offset_m] :
        {std::tuple(1U, 0.0, 0.0), {2U, 37.0, 1.3}, {3U, -64.0, -0.9}}) {
     const MirrorPlane truth = plane_at(azimuth_deg, offset_m);
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    expect_plane(symmetry_of(mirror_pair(seed, truth)), truth);
+    const Blobs blobs = mirror_pair(seed, truth);
+    const std::vector<Vec3f> points_m = surface_points_m(blobs, 0.12);
+    const Symmetry symmetry = symmetry_of(blobs);
+    expect_plane(symmetry, truth);
+    ASSERT_EQ(symmetry.mirrored_world_m.size(), points_m.size());
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      const Vec3 expected_m = mirrored(*symmetry.plane, points_m[i].cast<double>());
+      EXPECT_EQ(symmetry.mirrored_world_m[i], Vec3f(expected_m.cast<float>()));
+    }
   }
 }
 
@@ -257,12 +252,20 @@ TEST(FindSymmetry, DeclinesToMirrorIntoTheUnknown) {
   EXPECT_FALSE(find_symmetry({.min_confirmed = 0.6}, points_m, grid).plane);
 }
 
+/// The surface of the blobs, before its normals are estimated.
+std::vector<ProfilePoint> profile_of(const Blobs& blobs) {
+  std::vector<ProfilePoint> profile;
+  for (const Vec3f& p_m : surface_points_m(blobs, 0.12)) profile.push_back({p_m, Vec3f::UnitZ()});
+  return profile;
+}
+
 TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
   const MirrorPlane truth = plane_at(37.0, 1.3);
   std::vector<ProfilePoint> profile;
   for (const Sphere& sphere : mirror_pair(2, truth)) {
-    for (const Vec3f& p_m : surface_points_m({sphere}, 0.12)) {
-      profile.push_back({p_m, p_m - sphere.center_m.cast<float>()});
+    for (ProfilePoint& point : profile_of({sphere})) {
+      point.outward_world = point.p_world_m - sphere.center_m.cast<float>();
+      profile.push_back(point);
     }
   }
   symmetry_module().estimate_normals(profile, 0, profile.size());
@@ -279,10 +282,7 @@ TEST(MatchKeypoints, PairsKeypointsWithTheirImages) {
 }
 
 TEST(EstimateNormals, AreThoseOfTheWholeInAnyPieces) {
-  std::vector<ProfilePoint> whole;
-  for (const Vec3f& p_m : surface_points_m(mirror_pair(2, plane_at(37.0, 1.3)), 0.12)) {
-    whole.push_back({p_m, Vec3f::UnitZ()});
-  }
+  std::vector<ProfilePoint> whole = profile_of(mirror_pair(2, plane_at(37.0, 1.3)));
   std::vector<ProfilePoint> pieces = whole;
   symmetry_module().estimate_normals(whole, 0, whole.size());
   symmetry_module().estimate_normals(pieces, pieces.size() / 3, pieces.size());
@@ -297,28 +297,13 @@ TEST(EstimateNormals, AreThoseOfTheWholeInAnyPieces) {
 
 TEST(RefinePlanes, BringsAPlaneBack) {
   const MirrorPlane truth = plane_at(37.0, 1.3);
-  std::vector<ProfilePoint> profile;
-  for (const Vec3f& p_m : surface_points_m(mirror_pair(2, truth), 0.12)) {
-    profile.push_back({p_m, Vec3f::UnitZ()});
-  }
+  std::vector<ProfilePoint> profile = profile_of(mirror_pair(2, truth));
   symmetry_module().estimate_normals(profile, 0, profile.size());
-  const Extent extent = {Vec3::Zero(), 5.0};
-  std::vector<MirrorPlane> planes = {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0)};
-  planes.push_back(
-      plane_through(1.3 * truth.normal_world, truth.normal_world + 0.03 * Vec3::UnitZ()));
-  for (MirrorPlane& plane : planes) symmetry_module().refine_plane(profile, plane);
-  for (const MirrorPlane& plane : planes) EXPECT_LT(distance_m(plane, truth, extent), 0.02);
-}
-
-TEST(FindSymmetry, MirrorsEveryPointOfTheProfile) {
-  const Blobs blobs = mirror_pair(2, plane_at(37.0, 1.3));
-  const std::vector<Vec3f> points_m = surface_points_m(blobs, 0.12);
-  const Symmetry symmetry = find_symmetry({}, points_m, measured_grid(blobs, points_m, everywhere));
-  ASSERT_TRUE(symmetry.plane);
-  ASSERT_EQ(symmetry.mirrored_world_m.size(), points_m.size());
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    const Vec3 expected_m = mirrored(*symmetry.plane, points_m[i].cast<double>());
-    EXPECT_EQ(symmetry.mirrored_world_m[i], Vec3f(expected_m.cast<float>()));
+  for (MirrorPlane plane :
+       {truth, plane_at(38.5, 1.5), plane_at(36.0, 1.0),
+        plane_through(1.3 * truth.normal_world, truth.normal_world + 0.03 * Vec3::UnitZ())}) {
+    symmetry_module().refine_plane(profile, plane);
+    EXPECT_LT(distance_m(plane, truth, {Vec3::Zero(), 5.0}), 0.02);
   }
 }
 
@@ -411,27 +396,21 @@ TEST(PredictSurface, MarksTheUnseenArmAndNothingMeasured) {
   }
   // the images of other points: some of their voxels are the neighbours
   EXPECT_GT(static_cast<double>(predicted), 0.9 * static_cast<double>(scene.unseen_m.size()));
-}
-
-TEST(PredictSurface, HoldsUntilTheFirstMeasurement) {
-  OneArmUnseen scene;
-  predict_surface(find_symmetry({}, scene.seen_m, scene.grid), scene.grid);
-  std::vector<VoxelIndex> predicted;
-  for (VoxelIndex v = 0; v < scene.grid.geometry().voxel_count(); ++v) {
-    if (scene.grid.is_predicted(v)) predicted.push_back(v);
+  // and marks hold until the first measurement
+  std::vector<VoxelIndex> marked;
+  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
+    if (scene.grid.is_predicted(v)) marked.push_back(v);
   }
-  ASSERT_GE(predicted.size(), 3U);
-  scene.grid.apply({.free = {predicted[0]}, .occupied = {predicted[1]}});
-  EXPECT_FALSE(scene.grid.is_predicted(predicted[0]));
-  EXPECT_FALSE(scene.grid.is_predicted(predicted[1]));
-  EXPECT_TRUE(scene.grid.is_predicted(predicted[2]));
-  EXPECT_EQ(scene.grid.predicted_count(), predicted.size() - 2);
+  scene.grid.apply({.free = {marked[0]}, .occupied = {marked[1]}});
+  EXPECT_FALSE(scene.grid.is_predicted(marked[0]));
+  EXPECT_FALSE(scene.grid.is_predicted(marked[1]));
+  EXPECT_TRUE(scene.grid.is_predicted(marked[2]));
+  EXPECT_EQ(scene.grid.predicted_count(), marked.size() - 2);
 }
 
 TEST(PredictSurface, CountsEachVoxelOnceAndLeavesTheOutsideAlone) {
   OccupancyGrid grid({}, Box3(Vec3(0, 0, 0), Vec3(2, 2, 2)));
-  const VoxelIndex measured = grid.geometry().index_of(grid.geometry().key_of(Vec3(1.5, 1.5, 1.5)));
-  grid.apply({.free = {measured}, .occupied = {}});
+  clear(grid, {voxel_at(grid, Vec3(1.5, 1.5, 1.5))});
   Symmetry symmetry;
   symmetry.mirrored_world_m = {{0.5F, 0.5F, 0.5F}, {0.51F, 0.5F, 0.5F}, {1.5F, 1.5F, 1.5F},
                                {1.1F, 0.5F, 0.5F}, {-0.1F, 0.5F, 0.5F}, {2.1F, 0.5F, 0.5F}};

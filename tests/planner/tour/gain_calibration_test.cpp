@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "planner/tour/gains.hpp"
-#include "tests/planner/tour/free_grid.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -123,41 +123,26 @@ Patch observed(std::uint8_t looks, std::uint8_t points = 0) {
       .missing = 10.0F, .source = PatchSource::sampled, .observations = looks, .points = points};
 }
 
-TEST(ObservationYield, BelievesWhatItSawOftenEnough) {
+TEST(ObservationYield, BelievesWhatItSawOftenEnoughOfItsKindAlone) {
   ObservationYield yield;
-  const float before = yield.share(observed(0), 0);
-  for (int i = 0; i < 100; ++i) yield.learn(observed(0), 0, 1000.0, 250.0);
-  EXPECT_NEAR(yield.share(observed(0), 0), 0.25F, 0.01F);
-  EXPECT_GT(before, 0.5F);
   const ObservationYield fresh;
-  EXPECT_EQ(yield.share(observed(0), 1), fresh.share(observed(0), 1))
-      << "of others it has learned nothing";
+  for (int i = 0; i < 100; ++i) yield.learn(observed(0), 0, 1000.0, 250.0);
+  EXPECT_GT(fresh.share(observed(0), 0), 0.5F);
+  EXPECT_NEAR(yield.share(observed(0), 0), 0.25F, 0.01F);
+  EXPECT_EQ(yield.share(observed(0), 1), fresh.share(observed(0), 1));
   EXPECT_EQ(yield.share(observed(0, 1), 0), fresh.share(observed(0, 1), 0));
-}
-
-TEST(ObservationYield, AllObservationsBeyondTheLastBinAreAlike) {
-  ObservationYield yield;
+  // all observations beyond the last bin are alike
   yield.learn(observed(200), 2, 1e6, 5e5);
   EXPECT_EQ(yield.share(observed(4), 2), yield.share(observed(9), 2));
   EXPECT_NEAR(yield.share(observed(4), 2), 0.5F, 0.01F);
-}
-
-TEST(ObservationYield, APatchHalfAsReliableIsPredictedHalf) {
-  const ObservationYield yield;
   Patch patch = observed(1);
-  const float whole = yield.share(patch, 0);
+  const float whole = fresh.share(patch, 0);
   patch.reliability = 0.5F;
-  EXPECT_EQ(yield.share(patch, 0), 0.5F * whole);
-}
-
-TEST(ObservationYield, IncidenceBinsAreWhatTheySay) {
-  const auto bin = [](double deg) {
-    return incidence_bin(static_cast<float>(std::cos(deg_to_rad(deg))));
-  };
-  EXPECT_EQ(bin(44.9), 0U);
-  EXPECT_EQ(bin(45.1), 1U);
-  EXPECT_EQ(bin(64.9), 1U);
-  EXPECT_EQ(bin(65.1), 2U);
+  EXPECT_EQ(fresh.share(patch, 0), 0.5F * whole);
+  for (const auto& [deg, bin] :
+       {std::pair(44.9, 0U), std::pair(45.1, 1U), std::pair(64.9, 1U), std::pair(65.1, 2U)}) {
+    EXPECT_EQ(incidence_bin(static_cast<float>(std::cos(deg_to_rad(deg)))), bin) << deg;
+  }
 }
 
 }  // namespace

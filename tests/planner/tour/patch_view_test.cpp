@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/tour/orienteering.hpp"
 #include "planner/tour/surface_cells.hpp"
 #include "sim/core/rng.hpp"
-#include "tests/planner/tour/free_grid.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
 namespace {
@@ -86,13 +87,9 @@ TEST(PatchViewer, SeesWhatNothingHides) {
   EXPECT_GT(seen, 200);
   EXPECT_GT(hidden, 10);
   EXPECT_LE(wrong, (seen + hidden) / 50);
-}
-
-TEST(PatchViewer, SeesNothingBeyondItsRange) {
-  std::vector<Vec3f> points;
-  add_wall(5.03, {-2, 2}, {2, 4}, points);
-  const Looked looked = look(points, kView);
-  for (std::size_t i = 0; i < looked.patches.size(); ++i) EXPECT_FALSE(looked.is_seen[i]);
+  points.clear();
+  add_wall(5.03, {-2, 2}, {2, 4}, points);  // beyond the range
+  EXPECT_EQ(std::ranges::count(look(points, kView).is_seen, true), 0);
 }
 
 double random(std::uint64_t seed, std::uint64_t frame, std::uint64_t index) {
@@ -153,10 +150,6 @@ TEST(ExpectedCover, IsTheDefinitionAfterAnyChanges) {
   }
 }
 
-double drawn(std::uint64_t frame, std::uint64_t index) {
-  return 2.0 * uniform01({3, Stream::bench, frame, index}) - 1.0;
-}
-
 /// Of the points of a square in the plane, the share that lies in the cube, times its area.
 double counted_area(const Vec3& normal, double distance) {
   constexpr int kSteps = 400;
@@ -177,14 +170,12 @@ double counted_area(const Vec3& normal, double distance) {
 
 TEST(PlaneSection, IsWhatCountedPointsSay) {
   for (std::uint64_t i = 0; i < 40; ++i) {
-    const Vec3 normal = Vec3(drawn(i, 0), drawn(i, 1), drawn(i, 2)).normalized();
-    const double distance = 0.9 * drawn(i, 3);
+    const auto drawn = [&](std::uint64_t k) { return 2.0 * random(3, i, k) - 1.0; };
+    const Vec3 normal = Vec3(drawn(0), drawn(1), drawn(2)).normalized();
+    const double distance = 0.9 * drawn(3);
     EXPECT_NEAR(plane_section_area(normal, distance, 1.0), counted_area(normal, distance), 0.02)
         << normal.transpose() << " at " << distance;
   }
-}
-
-TEST(PlaneSection, OfAFaceIsTheFace) {
   EXPECT_NEAR(plane_section_area(Vec3::UnitZ(), 0.1, 1.0), 1.0, 0.02);
   EXPECT_EQ(plane_section_area(Vec3::UnitZ(), 0.52, 1.0), 0.0);
   EXPECT_NEAR(plane_section_area(Vec3(1, 1, 1).normalized(), 0.0, 2.0), 3.0 * std::sqrt(3.0), 1e-9)

@@ -8,7 +8,7 @@
 #include "planner/tour/gains.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
-#include "tests/planner/tour/free_grid.hpp"
+#include "tests/planner/map/drawn_map.hpp"
 #include "tests/support/fault.hpp"
 
 namespace gnbv {
@@ -16,11 +16,7 @@ namespace {
 
 const Box3 kBox(Vec3(-2, -2, 0), Vec3(2, 2, 2));
 
-OccupancyGrid unknown_grid() {
-  OccupancyConfig config;
-  config.resolution_m = 0.2;
-  return {config, kBox};
-}
+OccupancyGrid unknown_grid() { return {OccupancyConfig{}, kBox}; }
 
 /// Points of a square with a side of 2 m about (0, 0, 1), `step_m` apart, on a plane.
 std::vector<Vec3f> square(const Vec3& normal, double step_m) {
@@ -43,10 +39,13 @@ std::size_t expected_voxels(const SurfaceCells& cells) {
   return sum;
 }
 
-TEST(SurfaceCells, APlaneScannedDenselyIsExpectedWhereItsPointsAre) {
+TEST(SurfaceCells, APlaneIsExpectedWhereItsPointsAreAndScannedThinlyWhole) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 2, 3), Vec3(-1, 1, 0.2)}) {
-    SurfaceCells cells(kBox, 0.05);
+    SurfaceCells cells(kBox, 0.05), thin(kBox, 0.05);
     cells.add(square(normal.normalized(), 0.01), unknown_grid(), 1);
+    thin.add(square(normal.normalized(), 0.15), unknown_grid(), 1);
+    const auto expected = static_cast<double>(expected_voxels(cells));
+    EXPECT_NEAR(static_cast<double>(expected_voxels(thin)), expected, 0.15 * expected);
     std::size_t covered = 0, missing = 0;
     for (const SurfaceCell& cell : cells.cells()) {
       if (cell.is_extrapolated()) continue;
@@ -61,25 +60,12 @@ TEST(SurfaceCells, APlaneScannedDenselyIsExpectedWhereItsPointsAre) {
   }
 }
 
-TEST(SurfaceCells, APlaneScannedThinlyIsExpectedWhole) {
-  SurfaceCells dense(kBox, 0.05), thin(kBox, 0.05);
-  dense.add(square(Vec3(1, 2, 3).normalized(), 0.01), unknown_grid(), 1);
-  thin.add(square(Vec3(1, 2, 3).normalized(), 0.15), unknown_grid(), 1);
-  const auto share =
-      static_cast<double>(expected_voxels(thin)) / static_cast<double>(expected_voxels(dense));
-  EXPECT_NEAR(share, 1.0, 0.15);
-}
-
 TEST(SurfaceCells, KnownFreeSpaceIsNotExtrapolatedInto) {
   OccupancyGrid grid = unknown_grid();
   SurfaceCells anywhere(kBox, 0.05);
   anywhere.add(square(Vec3::UnitZ(), 0.05), grid, 1);
-  std::vector<VoxelIndex> outside;
-  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
-    const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
-    if (center_m.head<2>().cwiseAbs().maxCoeff() > 1.0) outside.push_back(v);
-  }
-  for (int i = 0; i < 5; ++i) grid.apply({.free = outside, .occupied = {}});
+  clear(grid, voxels_where(
+                  grid, [](const Vec3& p_m) { return p_m.head<2>().cwiseAbs().maxCoeff() > 1.0; }));
   SurfaceCells within(kBox, 0.05);
   within.add(square(Vec3::UnitZ(), 0.05), grid, 1);
   EXPECT_LT(expected_voxels(within), expected_voxels(anywhere));
@@ -165,11 +151,7 @@ TEST(SurfaceCells, ADetailThatIsTooFineIsRefusedByItsName) {
 
 TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
   OccupancyGrid grid = unknown_grid();
-  std::vector<VoxelIndex> above;
-  for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {
-    if (grid.geometry().center_m(grid.geometry().key_at(v)).z() > 1.2) above.push_back(v);
-  }
-  for (int i = 0; i < 5; ++i) grid.apply({.free = above, .occupied = {}});
+  clear(grid, voxels_where(grid, [](const Vec3& p_m) { return p_m.z() > 1.2; }));
   SurfaceCells cells(kBox, 0.05);
   cells.add(square(Vec3::UnitZ(), 0.15), grid, 1);
   int sides = 0;
@@ -177,29 +159,16 @@ TEST(Patches, ASurfaceHasTheSidesThatSpaceIsFreeBefore) {
     if (patch.missing == 0.0F) continue;
     ++sides;
     EXPECT_GT(patch.normal.z(), 0.9F);
-    EXPECT_EQ(patch.source == PatchSource::sampled || patch.source == PatchSource::extrapolated,
-              true);
+    EXPECT_TRUE(patch.source == PatchSource::sampled || patch.source == PatchSource::extrapolated);
   }
   EXPECT_GT(sides, 50);
-}
-
-TEST(Patches, ObservationsOfEitherSideCountForBoth) {
-  const OccupancyGrid grid = unknown_grid();
-  SurfaceCells cells(kBox, 0.05);
-  cells.add(square(Vec3::UnitZ(), 0.1), grid, 1);
+  // observations of either side count for both
   for (std::uint32_t cell = 0; cell < cells.cells().size(); ++cell) {
-    cells.count_observation(cell, 0);
-    cells.count_observation(cell, 1);
-    cells.count_observation(cell, 1);
+    for (const int side : {0, 1, 1}) cells.count_observation(cell, static_cast<std::uint8_t>(side));
   }
-  const std::vector<Patch> patches = find_patches(cells, grid, 1);
-  int lacking = 0;
-  for (const Patch& patch : patches) {
-    if (patch.missing == 0.0F) continue;
-    ++lacking;
-    EXPECT_EQ(patch.observations, 3);
+  for (const Patch& patch : find_patches(cells, grid, 1)) {
+    EXPECT_TRUE(patch.missing == 0.0F || patch.observations == 3);
   }
-  EXPECT_GT(lacking, 50);
 }
 
 TEST(Patches, KnowHowDenselyTheirCellWasScanned) {

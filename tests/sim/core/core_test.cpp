@@ -22,21 +22,16 @@
 namespace gnbv {
 namespace {
 
-TEST(Pose, WrappedAngleIsTheSameDirectionWithinHalfATurn) {
+TEST(Pose, WrappedAngleIsTheSameDirectionWithinHalfATurnAndTheYawOfItsPose) {
   for (double angle_rad = -20.0; angle_rad < 20.0; angle_rad += 0.37) {
     const double wrapped_rad = wrap_angle_rad(angle_rad);
     EXPECT_GT(wrapped_rad, -kPi);
     EXPECT_LE(wrapped_rad, kPi);
     EXPECT_NEAR(std::cos(wrapped_rad), std::cos(angle_rad), 1e-12);
     EXPECT_NEAR(std::sin(wrapped_rad), std::sin(angle_rad), 1e-12);
+    EXPECT_NEAR(yaw_of(T_world_body({Vec3(1, 2, 3), angle_rad})), wrapped_rad, 1e-14);
   }
   EXPECT_EQ(wrap_angle_rad(-kPi), kPi);
-}
-
-TEST(Pose, YawOfALevelPoseIsItsYaw) {
-  for (const double yaw_rad : {-3.0, -1.5, 0.0, 0.3, 2.9}) {
-    EXPECT_NEAR(yaw_of(T_world_body({Vec3(1, 2, 3), yaw_rad})), yaw_rad, 1e-15);
-  }
 }
 
 TEST(Rng, EveryPartOfTheKeyChangesTheNumber) {
@@ -50,82 +45,56 @@ TEST(Rng, EveryPartOfTheKeyChangesTheNumber) {
   EXPECT_EQ(seen.size(), 6U);
 }
 
-TEST(Rng, UniformFillsItsTenthsEvenly) {
+TEST(Rng, UniformFillsItsTenthsEvenlyAndNormalHasMeanZeroAndVarianceOne) {
   constexpr int kDraws = 100000;
   std::array<int, 10> tenths{};
+  double sum = 0.0, sum_of_squares = 0.0;
   for (std::uint64_t i = 0; i < kDraws; ++i) {
     const double u = uniform01({7, Stream::bench, 0, i});
     ASSERT_GE(u, 0.0);
     ASSERT_LT(u, 1.0);
     ++tenths[static_cast<std::size_t>(u * 10.0)];
-  }
-  // binomial: sigma = sqrt(n p (1 - p)) = 95; five sigma
-  for (const int count : tenths) EXPECT_NEAR(count, kDraws / 10, 475);
-}
-
-TEST(Rng, NormalHasMeanZeroAndVarianceOne) {
-  constexpr int kDraws = 100000;
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  for (std::uint64_t i = 0; i < kDraws; ++i) {
     const double x = standard_normal({7, Stream::bench, 1, i});
     sum += x;
     sum_of_squares += x * x;
   }
+  // binomial: sigma = sqrt(n p (1 - p)) = 95; five sigma
+  for (const int count : tenths) EXPECT_NEAR(count, kDraws / 10, 475);
   // five sigma of the mean (1 / sqrt n) and of the variance (sqrt(2 / n))
   EXPECT_NEAR(sum / kDraws, 0.0, 0.016);
   EXPECT_NEAR(sum_of_squares / kDraws, 1.0, 0.0224);
 }
 
-TEST(Sha256Hash, AgreesWithThePublishedVectors) {
+TEST(Sha256Hash, OfPartsAgreesWithThePublishedVectors) {
   // FIPS 180-2, appendix B.1, and the empty message
   Sha256 abc;
-  abc.add("abc");
+  abc.add("a");
+  abc.add("bc");
   EXPECT_EQ(abc.hex(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(Sha256().hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
-TEST(Sha256Hash, PartsHashAsTheirConcatenation) {
-  Sha256 parts;
-  parts.add("a");
-  parts.add("bc");
-  Sha256 whole;
-  whole.add("abc");
-  EXPECT_EQ(parts.hex(), whole.hex());
-}
+namespace fs = std::filesystem;
 
-class AtomicFile : public testing::Test {
- protected:
-  std::ptrdiff_t files() const {
-    return std::distance(std::filesystem::directory_iterator(folder_), {});
-  }
-  TempFolder temp_;
-  const std::filesystem::path& folder_ = temp_.path();
-};
-
-TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
+TEST(WriteFile, ReadsBackAndAFailedWriteLeavesTheOldFileAndNothingElse) {
+  const TempFolder temp;
+  const fs::path file = temp.path() / "f.txt";
   const std::string content("one\0two\n", 8);
-  write_file_atomically(folder_ / "f.txt", content);
-  EXPECT_EQ(read_file(folder_ / "f.txt"), content);
-  EXPECT_EQ(files(), 1);
-}
-
-TEST_F(AtomicFile, AFailedWriteLeavesTheOldFileAndNothingElse) {
-  write_file_atomically(folder_ / "f.txt", "old");
-  EXPECT_THROW(write_file_atomically(folder_ / "f.txt",
-                                     [](const std::filesystem::path& part) {
+  write_file_atomically(file, content);
+  EXPECT_THROW(write_file_atomically(file,
+                                     [](const fs::path& part) {
                                        std::ofstream(part) << "half";
                                        throw BadInput("disk full");
                                      }),
                BadInput);
-  EXPECT_EQ(read_file(folder_ / "f.txt"), "old");
-  EXPECT_EQ(files(), 1);
-}
-
-TEST_F(AtomicFile, ErrorsNameThePath) {
-  EXPECT_TRUE(test::says(test::fault_of([&] { read_file(folder_ / "absent"); }), {"absent"}));
-  EXPECT_THROW(read_file(folder_), BadInput);
-  EXPECT_THROW(write_file_atomically(folder_ / "no" / "such" / "f", "x"), BadInput);
+  EXPECT_EQ(read_file(file), content);
+  EXPECT_EQ(std::distance(fs::directory_iterator(temp.path()), {}), 1);
+  EXPECT_TRUE(test::says(test::fault_of([&] { read_file(temp.path() / "absent"); }), {"absent"}));
+  EXPECT_THROW(write_file_atomically(temp.path() / "no" / "such" / "f", "x"), BadInput);
+  for (const fs::path& none : {temp.path(), fs::path("/dev/zero"), fs::path("/dev/urandom"),
+                               fs::path("/dev/full")}) {  // devices have no end
+    EXPECT_THROW(read_file(none), BadInput) << none;
+  }
 }
 
 TEST(Check, SaysWhatDoesNotHoldAndWhere) {
@@ -140,10 +109,6 @@ TEST(Check, SaysWhatDoesNotHoldAndWhere) {
     EXPECT_NE(message.find("core_test.cpp"), std::string::npos);
   }
 }
-
-// Files that outlast what can go wrong with them.
-
-namespace fs = std::filesystem;
 
 /// Files of this process end at so many bytes, as on a full disk.
 class FileLimit {
@@ -203,12 +168,6 @@ TEST(WriteFile, WhatADeadWriterLeftIsRemovedAndALivingOnesStays) {
   EXPECT_FALSE(fs::exists(dead));
   for (const fs::path& file : {living, temp.path() / ".other", temp.path() / "a.csv"}) {
     EXPECT_TRUE(fs::exists(file)) << file;
-  }
-}
-
-TEST(ReadFile, RefusesDevicesThatHaveNoEnd) {
-  for (const char* device : {"/dev/zero", "/dev/urandom", "/dev/full"}) {
-    EXPECT_THROW(read_file(device), BadInput) << device;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -19,59 +20,55 @@
 namespace gnbv {
 namespace {
 
-TEST(Parallel, EveryTaskRunsOnceAtAnyNumberOfThreads) {
+TEST(Parallel, EveryTaskRunsOnceAtAnyNumberOfThreadsAlsoInNestedCallsAndChunks) {
   for (const int threads : {0, 1, 2, 5, 16}) {
-    std::vector<std::atomic<int>> runs(101);
+    std::vector<std::atomic<int>> runs(101), nested(40 * 30), in_chunks(101);
     parallel_for(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
-    for (const auto& count : runs) EXPECT_EQ(count.load(), 1);
-  }
-}
-
-TEST(Parallel, ChunksAreOfTheSizeAskedForAndTogetherTheWhole) {
-  for (const std::size_t count : {0U, 1U, 10U, 99U, 100U, 101U}) {
-    std::vector<std::atomic<int>> runs(count);
-    std::atomic<int> short_ones{0};
-    parallel_for_chunks(4, count, 10, [&](std::size_t begin, std::size_t end) {
-      EXPECT_EQ(begin % 10, 0U);
-      if (end - begin != 10) ++short_ones;
-      for (std::size_t i = begin; i < end; ++i) ++runs[i];
+    parallel_for(threads, 40, [&](std::size_t i) {
+      parallel_for(threads, 30, [&](std::size_t j) { ++nested[i * 30 + j]; });
     });
-    for (const auto& each : runs) EXPECT_EQ(each.load(), 1);
-    EXPECT_EQ(short_ones, count % 10 == 0 ? 0 : 1);
-  }
-}
-
-TEST(Parallel, TheFirstFailureByIndexIsThrown) {
-  for (const int threads : {1, 4}) {
-    try {
-      parallel_for(threads, 50, [](std::size_t i) {
-        if (i == 7 || i == 31) throw std::runtime_error(std::to_string(i));
+    for (const std::size_t count : {0U, 1U, 10U, 99U, 100U, 101U}) {
+      std::atomic<int> short_ones{0};
+      parallel_for_chunks(threads, count, 10, [&](std::size_t begin, std::size_t end) {
+        EXPECT_EQ(begin % 10, 0U);
+        if (end - begin != 10) ++short_ones;
+        for (std::size_t i = begin; i < end; ++i) ++in_chunks[i];
       });
-      FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "7");
+      EXPECT_EQ(short_ones, count % 10 == 0 ? 0 : 1);
+      for (std::size_t i = 0; i < 101; ++i) EXPECT_EQ(in_chunks[i].exchange(0), i < count ? 1 : 0);
+    }
+    for (const auto* const all : {&runs, &nested}) {
+      for (const auto& count : *all) EXPECT_EQ(count.load(), 1);
     }
   }
 }
 
-TEST(Parallel, NestedCallsRunEveryTaskOnce) {
-  std::vector<std::atomic<int>> runs(40 * 30);
-  parallel_for(4, 40, [&](std::size_t i) {
-    parallel_for(3, 30, [&](std::size_t j) { ++runs[i * 30 + j]; });
-  });
-  for (const auto& count : runs) EXPECT_EQ(count.load(), 1);
+/// What the call throws.
+std::string thrown_by(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing";
 }
 
-TEST(Parallel, AFailureInsideANestedCallIsThrownByBoth) {
-  try {
-    parallel_for(2, 8, [](std::size_t i) {
-      parallel_for(2, 8, [i](std::size_t j) {
-        if (i >= 3 && j >= 5) throw std::runtime_error(std::to_string(10 * i + j));
-      });
-    });
-    FAIL() << "nothing was thrown";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "35");
+TEST(Parallel, TheFirstFailureByIndexIsThrownAlsoOutOfANestedCall) {
+  for (const int threads : {1, 4}) {
+    EXPECT_EQ(thrown_by([&] {
+                parallel_for(threads, 50, [](std::size_t i) {
+                  if (i == 7 || i == 31) throw std::runtime_error(std::to_string(i));
+                });
+              }),
+              "7");
+    EXPECT_EQ(thrown_by([&] {
+                parallel_for(threads, 8, [&](std::size_t i) {
+                  parallel_for(threads, 8, [i](std::size_t j) {
+                    if (i >= 3 && j >= 5) throw std::runtime_error(std::to_string(10 * i + j));
+                  });
+                });
+              }),
+              "35");
   }
 }
 
@@ -145,12 +142,12 @@ TEST(Base64, IsThatOfTheStandard) {
   const auto bytes_of = [](std::string_view text) {
     return std::vector<std::uint8_t>(text.begin(), text.end());
   };
-  EXPECT_EQ(base64(bytes_of("")), "");
-  EXPECT_EQ(base64(bytes_of("f")), "Zg==");
-  EXPECT_EQ(base64(bytes_of("fo")), "Zm8=");
-  EXPECT_EQ(base64(bytes_of("foo")), "Zm9v");
-  EXPECT_EQ(base64(bytes_of("foobar")), "Zm9vYmFy");
-  EXPECT_EQ(base64(std::vector<std::uint8_t>{0xff, 0xfe, 0xfb}), "//77");
+  for (const auto& [text, encoded] :
+       {std::pair("", ""), std::pair("f", "Zg=="), std::pair("fo", "Zm8="),
+        std::pair("foo", "Zm9v"), std::pair("foobar", "Zm9vYmFy"),
+        std::pair("\xff\xfe\xfb", "//77")}) {
+    EXPECT_EQ(base64(bytes_of(text)), encoded);
+  }
 }
 
 std::u32string code_points(std::string_view text) {
@@ -159,19 +156,19 @@ std::u32string code_points(std::string_view text) {
   return codes;
 }
 
-TEST(Utf8, CodePointsOfOneToFourBytesComeOutInOrder) {
-  EXPECT_EQ(code_points("K\xc3\xbchl \xe2\x82\xac\xf0\x9f\x9a\x81."),
-            U"K\u00fchl \u20ac\U0001f681.");
-  EXPECT_EQ(code_points(std::string_view("\0a", 2)), std::u32string(U"\0a", 2));
-}
-
-TEST(Utf8, BytesThatAreNoneAreReplacedOneByOne) {
-  EXPECT_EQ(code_points("a\xff\xc3"), U"a\ufffd\ufffd");          // no lead, cut off
-  EXPECT_EQ(code_points("\xc3\xc3\xbc"), U"\ufffd\u00fc");        // cut off by the next
-  EXPECT_EQ(code_points("\xc0\xaf"), U"\ufffd\ufffd");            // longer than it must be
-  EXPECT_EQ(code_points("\xed\xa0\x80"), U"\ufffd\ufffd\ufffd");  // a surrogate
-  EXPECT_EQ(code_points("\xf4\x90\x80\x80")[0], U'\ufffd');       // beyond the last
-  EXPECT_EQ(code_points("\xe2\x82"), U"\ufffd\ufffd");            // at the end of the text
+TEST(Utf8, CodePointsComeOutInOrderAndBytesThatAreNoneAreReplacedOneByOne) {
+  using namespace std::string_view_literals;
+  for (const auto& [bytes, codes] : std::vector<std::pair<std::string_view, std::u32string_view>>{
+           {"K\xc3\xbchl \xe2\x82\xac\xf0\x9f\x9a\x81."sv, U"K\u00fchl \u20ac\U0001f681."sv},
+           {"\0a"sv, U"\0a"sv},
+           {"a\xff\xc3"sv, U"a\ufffd\ufffd"sv},                    // no lead, cut off
+           {"\xc3\xc3\xbc"sv, U"\ufffd\u00fc"sv},                  // cut off by the next
+           {"\xc0\xaf"sv, U"\ufffd\ufffd"sv},                      // longer than it must be
+           {"\xed\xa0\x80"sv, U"\ufffd\ufffd\ufffd"sv},            // a surrogate
+           {"\xf4\x90\x80\x80"sv, U"\ufffd\ufffd\ufffd\ufffd"sv},  // beyond the last
+           {"\xe2\x82"sv, U"\ufffd\ufffd"sv}}) {                   // at the end of the text
+    EXPECT_EQ(code_points(bytes), codes);
+  }
 }
 
 TEST(FoldedText, BreaksAtBlanksButNotBetweenANumberAndItsUnit) {
@@ -203,14 +200,11 @@ TEST(Shortened, EndsAfterAWordAndIsNeverWider) {
   EXPECT_EQ(shortened("indivisible", 5), "");
 }
 
-TEST(Grouped, ThousandsOfCountsAreApart) {
-  EXPECT_EQ(grouped(0), "0");
-  EXPECT_EQ(grouped(999), "999");
-  EXPECT_EQ(grouped(1000), "1,000");
-  EXPECT_EQ(grouped(1234567), "1,234,567");
-}
-
-TEST(Grouped, NumbersHaveTheirDecimalsAndNoNegativeZero) {
+TEST(Grouped, ThousandsAreApartAndNumbersHaveTheirDecimalsAndNoNegativeZero) {
+  for (const auto& [count, text] : {std::pair(0U, "0"), std::pair(999U, "999"),
+                                    std::pair(1000U, "1,000"), std::pair(1234567U, "1,234,567")}) {
+    EXPECT_EQ(grouped(count), text);
+  }
   EXPECT_EQ(grouped(10969.6, 0), "10,970");
   EXPECT_EQ(grouped(1234.56, 1), "1,234.6");
   EXPECT_EQ(grouped(-1234567.25, 1), "-1,234,567.2");

@@ -3,30 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
 #include "scenarios/builtin.hpp"
 #include "sim/flight/cascade.hpp"
 #include "sim/mesh/world.hpp"
+#include "tests/sim/flight/px4_client.hpp"
 #include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
 
 const VehicleConfig kConfig;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const ViewPose kStart = {Vec3(0, 0, 10), 0.0};
-
-std::unique_ptr<Flight> flight_from(const ViewPose& start) {
-  return streaming(make_flight(kConfig, World{}, start, 1));
-}
-
-Setpoint position(const Vec3& p_world_m, double yaw_rad) {
-  Setpoint setpoint;
-  setpoint.p_world_m = p_world_m;
-  setpoint.yaw_rad = yaw_rad;
-  return setpoint;
-}
 
 /// When `share(state)` first reaches 90 %, when it last leaves 100 +- 2 %, and its largest value,
 /// all within 20 s.
@@ -55,7 +43,7 @@ Response respond(const Setpoint& setpoint, const std::function<double(const Vehi
 /// Of a step along x.
 Response respond_along_x(double step_m, const VehicleConfig& vehicle = kConfig) {
   return respond(
-      position(Vec3(step_m, 0, 10), 0.0),
+      go_to(Vec3(step_m, 0, 10), 0.0),
       [&](const VehicleState& state) { return state.T_world_body.translation().x() / step_m; },
       vehicle);
 }
@@ -82,32 +70,25 @@ TEST(Autopilot, GainsOf2019ReachAPositionWithoutOvershoot) {
   EXPECT_LT(r.peak, 1.001);
 }
 
-TEST(Autopilot, HeightStepRespondsAsTheReferenceModel) {
-  const Response r = respond(position(Vec3(0, 0, 12), 0.0), [](const VehicleState& state) {
+TEST(Autopilot, HeightYawAndSpeedStepsRespondAsTheReferenceModel) {
+  const auto height = [](const VehicleState& state) {
     return (state.T_world_body.translation().z() - 10.0) / 2.0;
-  });
-  EXPECT_NEAR(r.t90_s, 2.30, kStepTolerance * 2.30);
-  EXPECT_NEAR(r.settled_s, 4.2, kStepTolerance * 4.2);
-}
-
-TEST(Autopilot, YawStepRespondsAsTheReferenceModel) {
+  };
+  const Response up = respond(go_to(Vec3(0, 0, 12)), height);
+  EXPECT_NEAR(up.t90_s, 2.30, kStepTolerance * 2.30);
+  EXPECT_NEAR(up.settled_s, 4.2, kStepTolerance * 4.2);
   for (const auto& [step_deg, t90_s] : {std::pair(45.0, 0.68), std::pair(90.0, 0.75)}) {
     const double yaw_rad = deg_to_rad(step_deg);
-    const Response r = respond(position(Vec3(0, 0, 10), yaw_rad), [&](const VehicleState& state) {
+    const Response r = respond(go_to(Vec3(0, 0, 10), yaw_rad), [&](const VehicleState& state) {
       return yaw_of(state.T_world_body) / yaw_rad;
     });
     EXPECT_NEAR(r.t90_s, t90_s, kStepTolerance * t90_s) << step_deg << " deg";
   }
-}
-
-TEST(Autopilot, VelocitySetpointIsReachedAndHeightKept) {
-  Setpoint setpoint;
-  setpoint.v_world_m_s = Vec3(1, 0, 0);
-  const Response r = respond(setpoint, [](const VehicleState& state) {
+  const Response ahead = respond(fly_at(Vec3(1, 0, 0)), [](const VehicleState& state) {
     EXPECT_NEAR(state.T_world_body.translation().z(), 10.0, 0.05);
     return state.v_world_m_s.x();
   });
-  EXPECT_NEAR(r.t90_s, 1.66, kStepTolerance * 1.66);
+  EXPECT_NEAR(ahead.t90_s, 1.66, kStepTolerance * 1.66);
 }
 
 /// Seconds until the vehicle, hopping from corner to corner, is as near as that to each of them.
@@ -115,7 +96,7 @@ double longest_hop_s(const std::vector<Vec3>& corners_m, double near_m) {
   const auto flight = streaming(make_flight(kConfig, World{}, {corners_m.front(), 0.0}, 1));
   double longest_s = 0.0;
   for (const Vec3& corner_m : corners_m) {
-    flight->command(position(corner_m, 0.0));
+    flight->command(go_to(corner_m, 0.0));
     const std::int64_t begun = flight->tick();
     while ((flight->state().T_world_body.translation() - corner_m).norm() > near_m &&
            flight->tick() < begun + 60 * kTicksPerSecond) {
@@ -141,7 +122,7 @@ TEST(Autopilot, PassesPx4sOwnOffboardTests) {
 TEST(Autopilot, StepsToAllSidesAreAlike) {
   const auto t90_s = [](double x, double y) {
     const Eigen::Vector2d step_m(x, y);
-    return respond(position(Vec3(x, y, 10), 0.0),
+    return respond(go_to(Vec3(x, y, 10), 0.0),
                    [&](const VehicleState& state) {
                      return state.T_world_body.translation().head<2>().dot(step_m) / 25.0;
                    })
@@ -155,8 +136,8 @@ TEST(Autopilot, StepsToAllSidesAreAlike) {
 }
 
 TEST(Autopilot, YawRateAloneTurnsAtThatRate) {
-  const auto flight = flight_from(kStart);
-  Setpoint setpoint = position(kStart.p_world_m, kNan);
+  const auto flight = streaming(make_flight(kConfig, World{}, kStart, 1));
+  Setpoint setpoint = go_to(kStart.p_world_m, kNan);
   setpoint.yaw_rate_rad_s = 0.5;
   flight->command(setpoint);
   for (int i = 0; i < 1250; ++i) flight->step();
@@ -183,7 +164,7 @@ TEST(PositionControl, NeverAsksForMoreTiltOrThrustThanAllowed) {
       VehicleState state;
       state.v_world_m_s.z() = climb_m_s;
       const AttitudeSetpoint out = position_control(kConfig.autopilot, kConfig.airframe, memory,
-                                                    state, position(Vec3(far_m, -far_m, 0.0), 0.3));
+                                                    state, go_to(Vec3(far_m, -far_m, 0.0), 0.3));
       const double cos_tilt = (out.q_world_body * Vec3::UnitZ()).z();
       EXPECT_LE(std::acos(std::min(1.0, cos_tilt)), kConfig.autopilot.tilt_max_rad + 1e-9);
       EXPECT_LE(out.thrust, 1.0 + 1e-12);
@@ -194,12 +175,12 @@ TEST(PositionControl, NeverAsksForMoreTiltOrThrustThanAllowed) {
 
 TEST(PositionControl, SetpointsNeedEveryAxisAndPairs) {
   EXPECT_FALSE(is_valid(Setpoint{}));
-  EXPECT_TRUE(is_valid(position(Vec3(1, 2, 3), kNan)));
-  EXPECT_FALSE(is_valid(position(Vec3(1, kNan, 3), kNan)));
-  Setpoint unpaired = position(Vec3(1, kNan, 3), kNan);
+  EXPECT_TRUE(is_valid(go_to(Vec3(1, 2, 3), kNan)));
+  EXPECT_FALSE(is_valid(go_to(Vec3(1, kNan, 3), kNan)));
+  Setpoint unpaired = go_to(Vec3(1, kNan, 3), kNan);
   unpaired.v_world_m_s = Vec3(1, 1, 1);
   EXPECT_FALSE(is_valid(unpaired));
-  Setpoint mixed = position(Vec3(kNan, kNan, 3), kNan);
+  Setpoint mixed = go_to(Vec3(kNan, kNan, 3), kNan);
   EXPECT_FALSE(is_valid(mixed));
   mixed.v_world_m_s = Vec3(1, 0, kNan);
   EXPECT_TRUE(is_valid(mixed));

@@ -3,43 +3,36 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "scenarios/builtin.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/sim/flight/bare_vehicle.hpp"
+#include "tests/sim/flight/px4_client.hpp"
 #include "tests/support/streaming_flight.hpp"
 
 namespace gnbv {
 namespace {
 
-/// A wall of 20 m x 20 m at x = 3 m, seen from the origin.
-World walled_world() {
+/// A wall of 20 m x 20 m at x, facing -x.
+World walled_world(float x_m = 3.0F) {
   World world;
-  world.structure.vertices_m = {{3, -10, 0}, {3, 10, 0}, {3, 10, 20}, {3, -10, 20}};
+  world.structure.vertices_m = {{x_m, -10, -5}, {x_m, 10, -5}, {x_m, 10, 15}, {x_m, -10, 15}};
   world.structure.faces = {{0, 2, 1}, {0, 3, 2}};
   return world;
 }
 
-VehicleConfig kind(VehicleKind vehicle) {
-  VehicleConfig config;
-  config.kind = vehicle;
-  return config;
-}
-
-Setpoint go_to(const Vec3& p_world_m, double yaw_rad) {
-  Setpoint setpoint;
-  setpoint.p_world_m = p_world_m;
-  setpoint.yaw_rad = yaw_rad;
-  return setpoint;
-}
+/// A quadrotor, and an ideal vehicle.
+const std::vector<VehicleConfig> kBoth = [] {
+  std::vector<VehicleConfig> both(2);
+  both[1].kind = VehicleKind::ideal;
+  return both;
+}();
 
 const ViewPose kStart = {Vec3(0, 0, 5), 0.3};
 
 TEST(Flight, StartsAtRestWhereItIsTold) {
-  for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    const auto flight = streaming(make_flight(kind(vehicle), World{}, kStart, 1));
+  for (const VehicleConfig& vehicle : kBoth) {
+    const auto flight = streaming(make_flight(vehicle, World{}, kStart, 1));
     EXPECT_EQ(flight->tick(), 0);
     EXPECT_TRUE(flight->state().T_world_body.isApprox(T_world_body(kStart), 1e-15));
     for (int i = 0; i < 250; ++i) flight->step();
@@ -49,40 +42,30 @@ TEST(Flight, StartsAtRestWhereItIsTold) {
   }
 }
 
-TEST(Flight, FlyingIntoAWallIsACollision) {
-  const auto flight = streaming(make_flight({}, walled_world(), kStart, 1));
-  flight->command(go_to(Vec3(6, 0, 5), 0.3));
-  for (int i = 0; i < 1500; ++i) flight->step();
-  EXPECT_TRUE(flight->has_collided());
-  EXPECT_LT(flight->state().T_world_body.translation().x(), 3.0);
-  EXPECT_TRUE(flight->state().T_world_body.matrix().allFinite());
-}
-
-TEST(Flight, FlyingIntoTheGroundIsACollision) {
-  const auto flight = streaming(make_flight({}, World{}, {Vec3(0, 0, 1), 0.0}, 1));
-  flight->command(go_to(Vec3(0, 0, -2), 0.0));
-  for (int i = 0; i < 1500; ++i) flight->step();
-  EXPECT_TRUE(flight->has_collided());
-  EXPECT_GT(flight->state().T_world_body.translation().z(), 0.0);
+TEST(Flight, FlyingIntoAWallOrTheGroundIsACollision) {
+  for (const auto& [start, goal_m] : {std::pair(kStart, Vec3(6, 0, 5)),
+                                      std::pair(ViewPose{Vec3(0, 0, 1), 0.0}, Vec3(0, 0, -2))}) {
+    const auto flight = streaming(make_flight({}, walled_world(), start, 1));
+    flight->command(go_to(goal_m, start.yaw_rad));
+    for (int i = 0; i < 1500; ++i) flight->step();
+    EXPECT_TRUE(flight->has_collided());
+    const Isometry T = flight->state().T_world_body;
+    EXPECT_TRUE(T.matrix().allFinite());
+    EXPECT_LT(T.translation().x(), 3.0);
+    EXPECT_GT(T.translation().z(), 0.0);
+  }
 }
 
 TEST(Flight, HoverDrawsHoverPower) {
-  for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    const auto flight = streaming(make_flight(kind(vehicle), World{}, kStart, 1));
+  for (const VehicleConfig& vehicle : kBoth) {
+    const auto flight = streaming(make_flight(vehicle, World{}, kStart, 1));
     for (int i = 0; i < 36 * kTicksPerSecond; ++i) flight->step();
     EXPECT_NEAR(flight->energy_wh(), 1.85, 0.005);  // 185 W for a hundredth of an hour
   }
 }
 
-TEST(Flight, NanStartThrowsBrokenInvariant) {
-  const ViewPose nowhere = {Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), 0.0};
-  for (const VehicleKind vehicle : {VehicleKind::quadrotor, VehicleKind::ideal}) {
-    EXPECT_THROW(make_flight(kind(vehicle), World{}, nowhere, 1), BrokenInvariant);
-  }
-}
-
 TEST(IdealFlight, IsWhereTheSetpointIs) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), walled_world(), kStart, 1);
+  const auto flight = make_flight(kBoth[1], walled_world(), kStart, 1);
   const ViewPose there = {Vec3(6, -2, 9), -2.5};
   flight->command(go_to(there.p_world_m, there.yaw_rad));
   flight->step();
@@ -91,9 +74,8 @@ TEST(IdealFlight, IsWhereTheSetpointIs) {
 }
 
 TEST(IdealFlight, IntegratesVelocityAndYawRate) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
-  Setpoint setpoint;
-  setpoint.v_world_m_s = Vec3(1, -2, 0.5);
+  const auto flight = make_flight(kBoth[1], World{}, kStart, 1);
+  Setpoint setpoint = fly_at(Vec3(1, -2, 0.5));
   setpoint.yaw_rate_rad_s = 0.4;
   flight->command(setpoint);
   for (int i = 0; i < 250; ++i) flight->step();
@@ -104,11 +86,10 @@ TEST(IdealFlight, IntegratesVelocityAndYawRate) {
 
 /// Where an ideal vehicle that lands from 3 m comes to rest, within a minute.
 double landed_z_m(const World& world) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), world, {Vec3(0.2, 0.1, 3), 0.0}, 1);
+  const auto flight = make_flight(kBoth[1], world, {Vec3(0.2, 0.1, 3), 0.0}, 1);
   flight->land();
   for (int i = 0; i < 60 * kTicksPerSecond && !flight->has_landed(); ++i) flight->step();
-  return flight->has_landed() ? flight->state().T_world_body.translation().z()
-                              : std::numeric_limits<double>::quiet_NaN();
+  return flight->has_landed() ? flight->state().T_world_body.translation().z() : kNan;
 }
 
 TEST(IdealFlight, LandsOnTheTerrainBelowIt) {
@@ -126,20 +107,11 @@ TEST(IdealFlight, LandsOnTheTerrainBelowIt) {
 // Laws of the rigid vehicle and its rotors, from closed forms (sheet: model C, the modern Iris).
 
 const AirframeParameters kIris;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 VehicleState at_height(double z_m) {
   VehicleState state;
   state.T_world_body.translation() = Vec3(0, 0, z_m);
   return state;
-}
-
-/// A vertical square of 20 m at x = `x_m`, facing -x.
-TriangleMesh wall(float x_m) {
-  TriangleMesh mesh;
-  mesh.vertices_m = {{x_m, -10, -10}, {x_m, 10, -10}, {x_m, 10, 10}, {x_m, -10, 10}};
-  mesh.faces = {{0, 2, 1}, {0, 3, 2}};
-  return mesh;
 }
 
 double energy_j(const VehicleState& state) {
@@ -152,20 +124,18 @@ Vec3 angular_momentum(const VehicleState& state) {
 
 TEST(Rotors, HoverCommandLiftsTheWeight) {
   EXPECT_NEAR(hover_command(kIris), 0.7067, 1e-3);  // the sheet's value
-  const RotorSpeeds speeds = reference_speeds(kIris, {hover_command(kIris), hover_command(kIris),
-                                                      hover_command(kIris), hover_command(kIris)});
-  const Wrench wrench = rotor_wrench(kIris, speeds, Vec3::Zero(), Vec3::Zero());
+  RotorCommands commands{};
+  commands.fill(hover_command(kIris));
+  const Wrench wrench =
+      rotor_wrench(kIris, reference_speeds(kIris, commands), Vec3::Zero(), Vec3::Zero());
   EXPECT_NEAR(wrench.thrust_n, kIris.mass_kg * kIris.gravity_m_s2, 1e-12);  // rounding
   EXPECT_NEAR(wrench.torque_body_n_m.norm(), 0.0, 1e-12);
 }
 
-TEST(Rotors, FollowsAStepInItsTimeConstant) {
+TEST(Rotors, FollowsAStepInItsTimeConstantInAnyTicks) {
   const double share = 1.0 - std::exp(-1.0);  // 63.2 %
   EXPECT_NEAR(rotor_speed_after(kIris, 100.0, 200.0, 0.0125), 100.0 + 100.0 * share, 1e-9);
   EXPECT_NEAR(rotor_speed_after(kIris, 200.0, 100.0, 0.025), 200.0 - 100.0 * share, 1e-9);
-}
-
-TEST(Rotors, TwoHalfTicksEqualOneTick) {
   const double half = rotor_speed_after(kIris, 300.0, 900.0, 0.5 * kTick_s);
   EXPECT_NEAR(rotor_speed_after(kIris, half, 900.0, 0.5 * kTick_s),
               rotor_speed_after(kIris, 300.0, 900.0, kTick_s), 1e-9);  // exact ZOH, rounding
@@ -186,18 +156,15 @@ TEST(Rotors, DragOpposesInPlaneMotionOnly) {
   EXPECT_NEAR(climbing.thrust_n, 0.8 * wrench.thrust_n, 1e-12);  // 1 - 5/25
 }
 
-TEST(RigidVehicle, FallsFreelyWithMotorsOff) {
-  RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
-  step(vehicle, all(0.0), 500);
+TEST(RigidVehicle, FallsFreelyWithMotorsOffAndHoversAtHoverSpeed) {
+  RigidVehicle falling(kIris, empty_world(), at_height(0.0), all(0.0));
+  step(falling, all(0.0), 500);
   // the integration is exact under constant force: only rounding remains
-  EXPECT_NEAR(vehicle.state().T_world_body.translation().z(), -19.6132, 1e-9);
-  EXPECT_NEAR(vehicle.state().v_world_m_s.z(), -19.6132, 1e-9);
-}
-
-TEST(RigidVehicle, HoversWhereItIsAtHoverSpeed) {
-  RigidVehicle vehicle(kIris, empty_world(), at_height(3.0), all(hover_speed_rad_s(kIris)));
-  step(vehicle, all(hover_speed_rad_s(kIris)), 2500);
-  EXPECT_NEAR((vehicle.state().T_world_body.translation() - Vec3(0, 0, 3)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(falling.state().T_world_body.translation().z(), -19.6132, 1e-9);
+  EXPECT_NEAR(falling.state().v_world_m_s.z(), -19.6132, 1e-9);
+  RigidVehicle hovering(kIris, empty_world(), at_height(3.0), all(hover_speed_rad_s(kIris)));
+  step(hovering, all(hover_speed_rad_s(kIris)), 2500);
+  EXPECT_NEAR((hovering.state().T_world_body.translation() - Vec3(0, 0, 3)).norm(), 0.0, 1e-9);
 }
 
 TEST(RigidVehicle, TorqueFreeRotationConservesAngularMomentumAndEnergy) {
@@ -213,26 +180,20 @@ TEST(RigidVehicle, TorqueFreeRotationConservesAngularMomentumAndEnergy) {
     worst_L = std::max(worst_L, (angular_momentum(vehicle.state()) - L0).norm() / L0.norm());
     worst_E = std::max(worst_E, std::abs(energy_j(vehicle.state()) - E0) / E0);
   }
-  EXPECT_LT(worst_L, 1e-12);  // kept as state: rounding
-  EXPECT_LT(worst_E, 1e-6);   // second order in the 16 mrad turned per tick
-}
-
-TEST(RigidVehicle, SpinAboutAPrincipalAxisTurnsByRateTimesTime) {
-  VehicleState start = at_height(0.0);
-  start.omega_body_rad_s = Vec3(0.0, 0.0, 1.5);
-  RigidVehicle vehicle(kIris, empty_world(), start, all(0.0));
-  step(vehicle, all(0.0), kTicksPerSecond);
-  EXPECT_NEAR(yaw_of(vehicle.state().T_world_body), 1.5, 1e-12);  // rounding
+  EXPECT_LT(worst_L, 1e-12);                     // kept as state: rounding
+  EXPECT_LT(worst_E, 1e-6);                      // second order in the 16 mrad turned per tick
+  start.omega_body_rad_s = Vec3(0.0, 0.0, 1.5);  // a principal axis
+  RigidVehicle spinning(kIris, empty_world(), start, all(0.0));
+  step(spinning, all(0.0), kTicksPerSecond);
+  EXPECT_NEAR(yaw_of(spinning.state().T_world_body), 1.5, 1e-12);  // rounding
 }
 
 TEST(RigidVehicle, TouchesAWallWhereItsHullEnds) {
-  World world = empty_world();
-  world.structure = wall(3.0F);
-  VehicleState start = at_height(0.0);
+  VehicleState start = at_height(5.0);
   start.v_world_m_s = Vec3(5.0, 0.0, 0.0);
   AirframeParameters weightless = kIris;
   weightless.gravity_m_s2 = 0.0;
-  RigidVehicle vehicle(weightless, world, start, all(0.0));
+  RigidVehicle vehicle(weightless, walled_world(), start, all(0.0));
   double x_touch_m = 0.0;
   for (int i = 0; i < 500 && !has_collided(vehicle); ++i) {
     step(vehicle, all(0.0));
@@ -248,11 +209,10 @@ TEST(RigidVehicle, TouchesAWallWhereItsHullEnds) {
 
 TEST(RigidVehicle, PassesAWallOneMillimetreAwayButNotOneMillimetreInside) {
   for (const float gap_m : {0.001F, -0.001F}) {
-    World world = empty_world();
-    world.structure = wall(static_cast<float>(kIris.hull_radius_m) + gap_m);
+    const World world = walled_world(static_cast<float>(kIris.hull_radius_m) + gap_m);
     AirframeParameters weightless = kIris;
     weightless.gravity_m_s2 = 0.0;
-    VehicleState start = at_height(0.0);
+    VehicleState start = at_height(5.0);
     start.v_world_m_s = Vec3(0.0, 2.0, 0.0);
     RigidVehicle vehicle(weightless, world, start, all(0.0));
     step(vehicle, all(0.0), 500);
@@ -271,10 +231,13 @@ TEST(RigidVehicle, LandsOnTheGroundPlaneAndStaysAboveIt) {
   EXPECT_FALSE(has_collided(groundless));
 }
 
-TEST(RigidVehicle, NanThrowsBrokenInvariant) {
+TEST(Flight, NanThrowsBrokenInvariant) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
   EXPECT_THROW(step(vehicle, all(kNan)), BrokenInvariant);
   EXPECT_THROW(RigidVehicle(kIris, empty_world(), at_height(kNan), all(0.0)), BrokenInvariant);
+  for (const VehicleConfig& kind : kBoth) {
+    EXPECT_THROW(make_flight(kind, World{}, {Vec3::Constant(kNan), 0.0}, 1), BrokenInvariant);
+  }
 }
 
 }  // namespace

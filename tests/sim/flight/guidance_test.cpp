@@ -15,16 +15,16 @@ namespace {
 const GuidanceConfig kGuidance;
 const ViewPose kStart = {Vec3(0, 0, 10), 0.0};
 
-VehicleConfig kind(VehicleKind vehicle) {
-  VehicleConfig config;
-  config.kind = vehicle;
-  return config;
-}
+const VehicleConfig kIdeal = [] {
+  VehicleConfig vehicle;
+  vehicle.kind = VehicleKind::ideal;
+  return vehicle;
+}();
 
 /// Flies as the vehicle's own guidance does.
 LegEnd fly(Flight& flight, const ViewPose& goal, double speed_m_s,
            const std::function<bool(const Flight&)>& on_tick = nullptr,
-           const VehicleConfig& vehicle = kind(VehicleKind::ideal)) {
+           const VehicleConfig& vehicle = kIdeal) {
   return fly_leg(flight, goal, speed_m_s, kGuidance, vehicle, on_tick);
 }
 
@@ -154,7 +154,7 @@ TEST(Guidance, KeepsClearOfTheAutopilotsLimits) {
 
 TEST(Guidance, IdealVehicleFliesExactlyTheLine) {
   for (const auto& [goal, speed_m_s] : legs()) {
-    const Report report = report_of(kind(VehicleKind::ideal), goal, speed_m_s);
+    const Report report = report_of(kIdeal, goal, speed_m_s);
     EXPECT_EQ(report.end, LegEnd::arrived);
     EXPECT_LT(report.off_line_m, 1e-12);  // rounding at 20 m
     EXPECT_LT(report.past_goal_m, 1e-12);
@@ -165,7 +165,7 @@ TEST(Guidance, IdealVehicleFliesExactlyTheLine) {
 
 TEST(Guidance, TurnsTheShortWay) {
   const ViewPose start = {Vec3(0, 0, 10), deg_to_rad(170.0)};
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, start, 1);
+  const auto flight = make_flight(kIdeal, World{}, start, 1);
   double turned_rad = 0.0;
   double before_rad = start.yaw_rad;
   const auto watch = [&](const Flight& now) {
@@ -179,46 +179,34 @@ TEST(Guidance, TurnsTheShortWay) {
   EXPECT_NEAR(turned_rad, deg_to_rad(40.0), 1e-9);
 }
 
-TEST(Guidance, FalseEndsTheLegAtThatTick) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
+TEST(Guidance, FalseOrContactEndsTheLegAndOneOfMoreThanAnHourIsNotBegun) {
+  const auto flight = make_flight(kIdeal, World{}, kStart, 1);
+  EXPECT_EQ(fly(*flight, {Vec3(1e10, 0, 10), 0.0}, 2.0), LegEnd::timeout);
+  EXPECT_EQ(flight->tick(), 0);
   const auto stop = [](const Flight& now) { return now.tick() < 123; };
   EXPECT_EQ(fly(*flight, {Vec3(5, 0, 10), 0.0}, 2.0, stop), LegEnd::stopped);
   EXPECT_EQ(flight->tick(), 123);
-}
-
-TEST(Guidance, ContactEndsTheLeg) {
-  const auto flight = make_flight({}, World{}, {Vec3(0, 0, 1), 0.0}, 1);
-  EXPECT_EQ(fly(*flight, {Vec3(0, 0, -1), 0.0}, 1.0, nullptr, {}), LegEnd::collision);
+  const auto low = make_flight({}, World{}, {Vec3(0, 0, 1), 0.0}, 1);
+  EXPECT_EQ(fly(*low, {Vec3(0, 0, -1), 0.0}, 1.0, nullptr, {}), LegEnd::collision);
+  const auto high = make_flight({}, World{}, kStart, 1);
+  EXPECT_THROW(fly(*high, {Vec3::Constant(std::nan("")), 0.0}, 2.0), BrokenInvariant);
 }
 
 TEST(Guidance, NeverArrivingEndsInATimeout) {
   GuidanceConfig strict;
   strict.arrival_distance_m = -1.0;
   strict.timeout_s = 5.0;
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
-  EXPECT_EQ(fly_leg(*flight, {Vec3(1, 0, 10), 0.0}, 2.0, strict, kind(VehicleKind::ideal), nullptr),
-            LegEnd::timeout);
+  const auto flight = make_flight(kIdeal, World{}, kStart, 1);
+  EXPECT_EQ(fly_leg(*flight, {Vec3(1, 0, 10), 0.0}, 2.0, strict, kIdeal, nullptr), LegEnd::timeout);
   const double leg_s =
       RestToRest(1.0, {2.0, strict.acceleration_m_s2, strict.jerk_m_s3}).duration_s();
   EXPECT_NEAR(static_cast<double>(flight->tick()) * kTick_s, leg_s + 5.0, 0.041);  // 2 setpoints
 }
 
-TEST(Guidance, ALegOfMoreThanAnHourIsNotBegun) {
-  const auto flight = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
-  EXPECT_EQ(fly(*flight, {Vec3(1e10, 0, 10), 0.0}, 2.0), LegEnd::timeout);
-  EXPECT_EQ(flight->tick(), 0);
-}
-
-TEST(Guidance, NanGoalThrowsBrokenInvariant) {
-  const auto flight = make_flight({}, World{}, kStart, 1);
-  EXPECT_THROW(fly(*flight, {Vec3::Constant(std::nan("")), 0.0}, 2.0), BrokenInvariant);
-}
-
-/// Passes on to the ideal vehicle, notes when it was commanded, and is wrong about where it is.
-class Recorder final : public Flight {
+/// An ideal vehicle that notes when it was commanded, and is wrong about where it is.
+class Recorder final : public StreamingFlight {
  public:
-  std::int64_t tick() const override { return flight_->tick(); }
-  VehicleState state() const override { return flight_->state(); }
+  Recorder() : StreamingFlight(make_flight(kIdeal, World{}, kStart, 1)) {}
   VehicleState estimate() const override {
     VehicleState believed = state();
     believed.T_world_body.pretranslate(error_m);
@@ -227,19 +215,11 @@ class Recorder final : public Flight {
   void command(const Setpoint& setpoint) override {
     if (commanded_ticks.empty()) first = setpoint;
     commanded_ticks.push_back(tick());
-    flight_->command(setpoint);
+    StreamingFlight::command(setpoint);
   }
-  void step() override { flight_->step(); }
-  bool has_collided() const override { return flight_->has_collided(); }
-  double energy_wh() const override { return flight_->energy_wh(); }
-  void land() override { flight_->land(); }
-  bool has_landed() const override { return flight_->has_landed(); }
   std::vector<std::int64_t> commanded_ticks;
   Setpoint first;
   Vec3 error_m = Vec3::Zero();
-
- private:
-  std::unique_ptr<Flight> flight_ = make_flight(kind(VehicleKind::ideal), World{}, kStart, 1);
 };
 
 TEST(Guidance, StreamsASetpointEvery20ms) {

@@ -7,6 +7,12 @@ namespace gnbv {
 namespace {
 
 TEST(Px4Modes, TakesOffHoversLandsAndDisarms) {
+  Quadrotor low = on_ground();
+  ASSERT_EQ(low.px4().command({22, {0, 0, 0, 0, 0, 0, static_cast<float>(kNan)}}), Ack::accepted);
+  ASSERT_EQ(low.px4().arm(true), Ack::accepted);
+  wait(low, 20.0);
+  EXPECT_NEAR(place(low).z(), 2.5, 0.05) << "the default";
+
   Quadrotor quadrotor = on_ground();
   Px4& px4 = quadrotor.px4();
   ASSERT_EQ(px4.command({22, {0, 0, 0, 0, 0, 0, 4.0F}}), Ack::accepted);
@@ -38,16 +44,6 @@ TEST(Px4Modes, TakesOffHoversLandsAndDisarms) {
   EXPECT_LT(quadrotor.power_w(), 1e-9);
 }
 
-TEST(Px4Modes, TakeoffWithoutAnAltitudeGoesToTheDefault) {
-  Quadrotor quadrotor = on_ground();
-  ASSERT_EQ(
-      quadrotor.px4().command({22, {0, 0, 0, 0, 0, 0, std::numeric_limits<float>::quiet_NaN()}}),
-      Ack::accepted);
-  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
-  wait(quadrotor, 20.0);
-  EXPECT_NEAR(place(quadrotor).z(), 2.5, 0.05);
-}
-
 TEST(Px4Modes, StandsStillOnTheGroundForAsLongAsItLikes) {
   Quadrotor quadrotor = on_ground();
   const Isometry T0 = quadrotor.state().T_world_body;
@@ -70,37 +66,25 @@ TEST(Px4Modes, HoveringJustAboveTheGroundIsNoLanding) {
   EXPECT_FALSE(quadrotor.has_collided());
 }
 
-TEST(Px4Modes, DisarmingAtOnceAfterLandingWaitsForTheLanding) {
-  CommanderParameters commander;
-  commander.disarm_after_landing_s = kTick_s;
-  Quadrotor quadrotor = airborne(with(commander));
-  stream(quadrotor, go_to(Vec3(0, 0, 10)), 2.0);
-  EXPECT_TRUE(quadrotor.px4().is_armed());
-  EXPECT_NEAR(place(quadrotor).z(), 10.0, 0.1);
-  quadrotor.land();
-  EXPECT_GE(ticks_until(quadrotor, 60.0, [&] { return quadrotor.has_landed(); }), 0);
-  EXPECT_LT(place(quadrotor).z(), 0.1);
-}
-
-TEST(Px4Modes, ZeroOrLessNeverDisarmsAVehicleThatHasLanded) {  // commander_params.c
-  for (const double wait_s : {0.0, -1.0}) {
-    CommanderParameters commander;
-    commander.disarm_after_landing_s = wait_s;
-    Quadrotor quadrotor = airborne(with(commander), {Vec3(0, 0, 1), 0.0});
+TEST(Px4Modes, DisarmsSoLongAfterLandingOrArmingAndNeverAtZero) {  // commander_params.c; 17, 18
+  for (const double landed_s : {2.0, kTick_s, 0.0, -1.0}) {
+    Quadrotor quadrotor =
+        airborne(with({.disarm_after_landing_s = landed_s}), {Vec3(0, 0, 2), 0.0});
+    stream(quadrotor, go_to(Vec3(0, 0, 2)), 2.0);
+    EXPECT_TRUE(quadrotor.px4().is_armed());
     quadrotor.land();
-    ASSERT_GE(ticks_until(quadrotor, 60.0, [&] { return quadrotor.px4().is_landed(); }), 0);
-    wait(quadrotor, 20.0);
-    EXPECT_TRUE(quadrotor.px4().is_armed()) << wait_s;
+    ASSERT_GT(ticks_until(quadrotor, 60.0, [&] { return quadrotor.px4().is_landed(); }), 0);
+    EXPECT_LT(place(quadrotor).z(), 0.06);  // on its hull
+    const int waited = ticks_until(quadrotor, 20.0, [&] { return !quadrotor.px4().is_armed(); });
+    EXPECT_NEAR(waited, landed_s > 0.0 ? ticks(landed_s) : -1, landed_s > 0.0 ? 1 : 0) << landed_s;
   }
-}
-
-TEST(Px4Modes, ZeroNeverDisarmsAVehicleThatHasNotFlown) {
-  CommanderParameters commander;
-  commander.disarm_never_flown_s = 0.0;
-  Quadrotor quadrotor = on_ground(with(commander));
-  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
-  wait(quadrotor, 20.0);
-  EXPECT_TRUE(quadrotor.px4().is_armed());
+  for (const double idle_s : {10.0, 0.0}) {
+    Quadrotor quadrotor = on_ground(with({.disarm_never_flown_s = idle_s}));
+    wait(quadrotor, 1.0);
+    ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
+    const int waited = ticks_until(quadrotor, 20.0, [&] { return !quadrotor.px4().is_armed(); });
+    EXPECT_NEAR(waited, idle_s > 0.0 ? ticks(idle_s) : -1, idle_s > 0.0 ? 1 : 0) << idle_s;
+  }
 }
 
 TEST(Px4Modes, OffboardDescentLandsAndAnotherSetpointTakesOffAgain) {
@@ -130,22 +114,8 @@ TEST(Px4Modes, HoldBrakesAndStays) {
   EXPECT_LT((place(quadrotor) - stopped).norm(), 0.02);
 }
 
-TEST(Px4Modes, HoldAfterAnOffboardFlightStaysWhereItBegan) {
-  Quadrotor quadrotor = on_ground();
-  stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 0.1);
-  ASSERT_EQ(quadrotor.px4().set_mode(NavState::offboard), Ack::accepted);  // begun elsewhere
-  ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
-  stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 8.0);
-  stream(quadrotor, go_to(Vec3(7, 2, 3), 0.5), 8.0);
-  ASSERT_EQ(quadrotor.px4().set_mode(NavState::hold), Ack::accepted);
-  wait(quadrotor, 10.0);
-  EXPECT_LT((place(quadrotor) - Vec3(7, 2, 3)).norm(), 0.3);
-}
-
 TEST(Px4Modes, ReturnClimbsFliesHomeAndLands) {
-  CommanderParameters commander;
-  commander.return_altitude_m = 15.0;
-  Quadrotor quadrotor = airborne(with(commander), {Vec3(0, 0, 5), 0.0});
+  Quadrotor quadrotor = airborne(with({.return_altitude_m = 15.0}), {Vec3(0, 0, 5), 0.0});
   stream(quadrotor, go_to(Vec3(20, -10, 5)), 12.0);
   ASSERT_EQ(quadrotor.px4().command({20, {}}), Ack::accepted);
   double top_m = 0.0;
@@ -181,32 +151,18 @@ TEST(Px4Modes, EveryLossActionDoesWhatItSays) {
        {std::pair(position, NavState::hold), std::pair(altitude, NavState::hold),
         std::pair(stabilized, NavState::hold), std::pair(rtl, NavState::rtl),
         std::pair(land, NavState::land), std::pair(hold, NavState::hold),
-        std::pair(terminate, NavState::terminate)}) {
-    CommanderParameters commander;
-    commander.offboard_loss_action = action;
-    Quadrotor quadrotor = airborne(with(commander));
-    wait(quadrotor, 1.1);
-    EXPECT_EQ(quadrotor.px4().nav_state(), mode);
-    EXPECT_TRUE(quadrotor.px4().is_in_failsafe());
-  }
-  CommanderParameters commander;
-  commander.offboard_loss_action = disarm;
-  Quadrotor quadrotor = airborne(with(commander));
-  wait(quadrotor, 1.1);
-  EXPECT_FALSE(quadrotor.px4().is_armed());
-}
-
-TEST(Px4Modes, CommandingTheFallbackModeEndsTheFailsafe) {
-  for (const auto& [action, mode] : {std::pair(OffboardLoss::hold, NavState::hold),
-                                     std::pair(OffboardLoss::land, NavState::land)}) {
-    CommanderParameters commander;
-    commander.offboard_loss_action = action;
-    Quadrotor quadrotor = airborne(with(commander));
+        std::pair(terminate, NavState::terminate), std::pair(disarm, NavState::offboard)}) {
+    Quadrotor quadrotor = airborne(with({.offboard_loss_action = action}));
     Px4& px4 = quadrotor.px4();
     wait(quadrotor, 1.1);
-    ASSERT_TRUE(px4.is_in_failsafe());
-    ASSERT_EQ(px4.nav_state(), mode);
-    px4.take_messages();
+    if (action == disarm) {
+      EXPECT_FALSE(px4.is_armed());
+      continue;
+    }
+    EXPECT_EQ(px4.nav_state(), mode);
+    EXPECT_TRUE(px4.is_in_failsafe());
+    if (action != hold && action != land) continue;
+    px4.take_messages();  // the same mode by command ends the failsafe
     EXPECT_EQ(px4.set_mode(mode), Ack::accepted);
     EXPECT_FALSE(px4.is_in_failsafe());
     EXPECT_TRUE(has_said(px4, "Failsafe over"));
@@ -217,11 +173,9 @@ TEST(Px4Modes, CommandingTheFallbackModeEndsTheFailsafe) {
 }
 
 TEST(Px4Modes, ALossCanBeHeldBeforeItIsActedOn) {  // PX4 1.9: two stages
-  CommanderParameters commander;
-  commander.offboard_loss_s = 0.5;
-  commander.offboard_loss_hold_s = 5.0;
-  commander.offboard_loss_action = OffboardLoss::rtl;
-  Quadrotor quadrotor = airborne(with(commander));
+  Quadrotor quadrotor = airborne(with({.offboard_loss_s = 0.5,
+                                       .offboard_loss_hold_s = 5.0,
+                                       .offboard_loss_action = OffboardLoss::rtl}));
   const auto runs = [&](NavState mode) {
     return ticks_until(quadrotor, 10.0, [&] { return quadrotor.px4().nav_state() == mode; });
   };
@@ -307,13 +261,16 @@ TEST(Px4Modes, DuplicatesAreAcceptedAndChangeNothing) {
   EXPECT_NEAR(flying.state().v_world_m_s.z(), v_m_s, 0.2);
 }
 
-TEST(Px4Modes, ArmingOnTheGroundIsHomeOfTheReturn) {
+TEST(Px4Modes, HoldStaysWhereItBeganAndArmingOnTheGroundIsHomeOfTheReturn) {
   Quadrotor quadrotor = on_ground();
   stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 0.1);
-  quadrotor.px4().set_mode(NavState::offboard);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::offboard), Ack::accepted);
   ASSERT_EQ(quadrotor.px4().arm(true), Ack::accepted);
   stream(quadrotor, go_to(Vec3(1, 2, 3), 0.5), 8.0);
   stream(quadrotor, go_to(Vec3(7, 2, 3), 0.5), 8.0);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::hold), Ack::accepted);
+  wait(quadrotor, 10.0);
+  EXPECT_LT((place(quadrotor) - Vec3(7, 2, 3)).norm(), 0.3);
   ASSERT_EQ(quadrotor.px4().set_mode(NavState::rtl), Ack::accepted);
   double top_m = 0.0;
   ASSERT_GT(ticks_until(quadrotor, 60.0,

@@ -151,17 +151,17 @@ TEST(Takeoff, WaitsUntilSomebodyWantsToFly) {
   EXPECT_EQ(next(takeoff, commander, false, true, true, 0.02).phase, TakeoffPhase::disarmed);
 }
 
+constexpr LandEvidence kTouching{.is_armed = true,
+                                 .is_told_to_descend = true,
+                                 .thrust = 0.12,
+                                 .thrust_min = 0.12,
+                                 .hover_thrust = 0.7};
+
 TEST(LandDetector, ThreeStagesTakeOneSecond) {
-  const CommanderParameters commander;
-  const LandEvidence touching{.is_armed = true,
-                              .is_told_to_descend = true,
-                              .thrust = 0.12,
-                              .thrust_min = 0.12,
-                              .hover_thrust = 0.7};
   LandDetector detector;
   int steps = 0;
   while (!detector.is_landed && steps < 1000) {
-    detector = next(detector, commander, touching, VehicleState{}, kTick_s);
+    detector = next(detector, {}, kTouching, VehicleState{}, kTick_s);
     ++steps;
     EXPECT_FALSE(steps * kTick_s < 0.33 && detector.has_ground_contact);
     EXPECT_FALSE(steps * kTick_s < 0.66 && detector.is_maybe_landed);
@@ -170,36 +170,27 @@ TEST(LandDetector, ThreeStagesTakeOneSecond) {
 }
 
 TEST(LandDetector, AnyMotionOrThrustIsNoLanding) {
-  const CommanderParameters commander;
-  const LandEvidence touching{.is_armed = true,
-                              .is_told_to_descend = true,
-                              .thrust = 0.12,
-                              .thrust_min = 0.12,
-                              .hover_thrust = 0.7};
-  const auto lands = [&](const LandEvidence& evidence, const VehicleState& state) {
+  const auto lands = [&](const LandEvidence& evidence, const Vec3& v_m_s = Vec3::Zero(),
+                         double roll_deg_s = 0.0) {
+    VehicleState state;
+    state.v_world_m_s = v_m_s;
+    state.omega_body_rad_s.x() = deg_to_rad(roll_deg_s);
     LandDetector detector;
-    for (int i = 0; i < 1000; ++i) detector = next(detector, commander, evidence, state, kTick_s);
+    for (int i = 0; i < 1000; ++i) detector = next(detector, {}, evidence, state, kTick_s);
     return detector.is_landed;
   };
-  EXPECT_TRUE(lands(touching, VehicleState{}));
-  VehicleState moving;
-  moving.v_world_m_s = Vec3(0, 0, -0.3);
-  EXPECT_FALSE(lands(touching, moving));
-  moving.v_world_m_s = Vec3(1.6, 0, 0);
-  EXPECT_FALSE(lands(touching, moving));
-  moving.v_world_m_s = Vec3(0.5, 0, 0.1);
-  EXPECT_TRUE(lands(touching, moving));
-  VehicleState turning;
-  turning.omega_body_rad_s = Vec3(deg_to_rad(21.0), 0, 0);
-  EXPECT_FALSE(lands(touching, turning));
-  LandEvidence hovering = touching;
+  EXPECT_TRUE(lands(kTouching));
+  EXPECT_FALSE(lands(kTouching, Vec3(0, 0, -0.3)));
+  EXPECT_FALSE(lands(kTouching, Vec3(1.6, 0, 0)));
+  EXPECT_TRUE(lands(kTouching, Vec3(0.5, 0, 0.1)));
+  EXPECT_FALSE(lands(kTouching, Vec3::Zero(), 21.0));
+  LandEvidence hovering = kTouching, staying = kTouching;
   hovering.thrust = 0.7;
-  EXPECT_FALSE(lands(hovering, VehicleState{}));
-  LandEvidence staying = touching;
   staying.is_told_to_descend = false;
-  EXPECT_FALSE(lands(staying, VehicleState{}));
+  EXPECT_FALSE(lands(hovering));
+  EXPECT_FALSE(lands(staying));
   staying.is_armed = false;
-  EXPECT_TRUE(lands(staying, moving));
+  EXPECT_TRUE(lands(staying, Vec3(0.5, 0, 0.1)));
 }
 
 }  // namespace

@@ -108,80 +108,53 @@ TEST(MavlinkBorder, BodyFrameHasNoPositionAndNoHalfVelocity) {
   EXPECT_FALSE(without_vx.a_world_m_s2.hasNaN());
 }
 
-TEST(MavlinkBorder, OtherFramesAreRefused) {  // (12)
+TEST(MavlinkBorder, OtherFramesForceAndNothingToControlAreRefused) {  // (12), (13)
   for (int frame = 0; frame < 256; ++frame) {
     const auto message = full_message(kVelocityAndYawRate, static_cast<std::uint8_t>(frame));
     EXPECT_EQ(is_refused(message), frame != 1 && frame != 8) << frame;
   }
-}
-
-TEST(MavlinkBorder, ForceIsRefused) {  // (13)
   EXPECT_TRUE(is_refused(full_message(512)));
   EXPECT_TRUE(is_refused(full_message(kPositionAndYaw | 512)));
-}
-
-TEST(MavlinkBorder, NothingToControlAndInfinityAreRefused) {
   EXPECT_TRUE(is_refused(full_message(0x1ff)));
   EXPECT_TRUE(is_refused(full_message(0x1f8, 8)));  // a position alone means nothing in the body
-  for (const float sign : {1.0F, -1.0F}) {
-    SetPositionTargetLocalNed message = full_message(kPositionAndYaw);
-    message.p_m[1] = sign * std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(is_refused(message));
-    message.type_mask = kVelocityAndYawRate;  // where it is ignored it does no harm
-    EXPECT_FALSE(is_refused(message));
-  }
 }
 
-TEST(MavlinkBorder, AnInfiniteYawOrYawRateIsRefused) {
-  for (const float sign : {1.0F, -1.0F}) {
-    SetPositionTargetLocalNed yaw = full_message(kPositionAndYaw);
-    yaw.yaw_rad = sign * std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(is_refused(yaw));
-    yaw.type_mask = kVelocityAndYawRate;
-    EXPECT_FALSE(is_refused(yaw));
-    SetPositionTargetLocalNed rate = full_message(kVelocityAndYawRate);
-    rate.yaw_rate_rad_s = sign * std::numeric_limits<float>::infinity();
-    EXPECT_TRUE(is_refused(rate));
-    rate.type_mask = kPositionAndYaw;
-    EXPECT_FALSE(is_refused(rate));
-  }
-}
-
-TEST(MavlinkBorder, EveryAxisHasABound) {
-  struct Group {
-    std::array<float, 3> SetPositionTargetLocalNed::*field;
+TEST(MavlinkBorder, EveryAxisHasABoundAndNoNumberIsInfinite) {
+  SetPositionTargetLocalNed message = full_message(0);
+  struct Number {
+    float* value;
     float limit;
-    int first_bit;
+    unsigned bit;
   };
-  for (const Group& group : {Group{&SetPositionTargetLocalNed::p_m, 1e6F, 0},
-                             Group{&SetPositionTargetLocalNed::v_m_s, 1e3F, 3},
-                             Group{&SetPositionTargetLocalNed::a_m_s2, 1e3F, 6}}) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  std::vector<Number> numbers = {{&message.yaw_rad, kMost, 10},
+                                 {&message.yaw_rate_rad_s, kMost, 11}};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    numbers.push_back({&message.p_m[axis], 1e6F, axis});
+    numbers.push_back({&message.v_m_s[axis], 1e3F, 3 + axis});
+    numbers.push_back({&message.a_m_s2[axis], 1e3F, 6 + axis});
+  }
+  for (const std::uint8_t frame : {std::uint8_t{1}, std::uint8_t{8}}) {
+    message = full_message(0, frame);
+    for (const auto& [value, limit, bit] : numbers) {
+      const bool is_no_position = frame == 8 && bit < 3;  // which it does not have
+      const float before = *value;
       for (const float sign : {1.0F, -1.0F}) {
-        SetPositionTargetLocalNed message = full_message(0);
-        float& value = (message.*group.field)[axis];
-        value = sign * group.limit;
-        EXPECT_FALSE(is_refused(message)) << group.limit << " axis " << axis;
-        for (const float beyond : {std::nextafter(group.limit, 1e9F), 3e38F}) {
-          value = sign * beyond;
+        *value = sign * (frame == 1 ? limit : before);
+        EXPECT_FALSE(is_refused(message)) << "bit " << bit;
+        for (const float beyond :
+             {frame == 1 ? std::nextafter(limit, HUGE_VALF) : HUGE_VALF, HUGE_VALF}) {
+          *value = sign * beyond;
+          EXPECT_EQ(is_refused(message), !is_no_position) << beyond << " bit " << bit;
+          // ignored it does no harm, and in the body with its whole vector
+          message.type_mask = static_cast<std::uint16_t>(1U << bit);
+          EXPECT_FALSE(is_refused(message)) << "bit " << bit;
           message.type_mask = 0;
-          EXPECT_TRUE(is_refused(message)) << beyond << " axis " << axis;
-          message.type_mask =
-              static_cast<std::uint16_t>(1U << (static_cast<std::size_t>(group.first_bit) + axis));
-          EXPECT_FALSE(is_refused(message)) << "where it is ignored it does no harm";
         }
       }
+      *value = before;
     }
   }
-}
-
-TEST(MavlinkBorder, TheBodyFrameHasTheSameBounds) {
-  SetPositionTargetLocalNed message = full_message(0, 8);
-  message.a_m_s2[0] = 3e38F;
-  EXPECT_TRUE(is_refused(message));
-  message.a_m_s2[0] = 1.0F;
-  message.p_m[0] = 3e38F;  // it has no position
-  EXPECT_FALSE(is_refused(message));
 }
 
 /// Oracle: the definition of the angles, Rz Ry Rx in NED/FRD, carried to ENU/FLU by matrices.

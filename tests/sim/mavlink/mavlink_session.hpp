@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <ostream>
+#include <string_view>
 #include <vector>
 
 #include "sim/mavlink/border.hpp"
@@ -19,6 +21,12 @@ namespace gnbv::mavlink {
 constexpr Address kClient = {0x7f000001, 40001};
 constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD
 constexpr std::uint16_t kDoSetMode = 176;
+
+inline ParameterId id_of(std::string_view name) {
+  ParameterId id{};
+  std::ranges::copy(name, id.begin());
+  return id;
+}
 
 /// What a vehicle says in that message.
 template <typename Message>
@@ -68,6 +76,9 @@ class Session {
       heard_[frames[0].message_id].push_back(frames[0]);
     }
   }
+  void step_for(int seconds) {
+    for (int i = 0; i < seconds * kTicksPerSecond; ++i) step();
+  }
   /// Steps with a setpoint every 40 ms until it is so, at most this long.
   bool fly_until(const Vec3& p_world_m, double limit_s, const std::function<bool()>& is_so) {
     const double begin_s = now_s();
@@ -85,6 +96,21 @@ class Session {
   }
   /// Everything said so far is forgotten.
   void forget() { heard_.clear(); }
+  /// What it says to that in one kind of message.
+  template <typename Answer, typename Message>
+  std::vector<Answer> answers(const Message& message) {
+    forget();
+    send(message);
+    listen();
+    return all<Answer>();
+  }
+  /// MAV_RESULT of a command.
+  int result_of(std::uint16_t id, float param1 = 0, float param2 = 0) {
+    command(id, param1, param2);
+    listen();
+    EXPECT_EQ(last<CommandAck>().command, id);
+    return last<CommandAck>().result;
+  }
   template <typename Message>
   std::vector<Message> all() {
     std::vector<Message> messages;

@@ -36,10 +36,6 @@ inline std::string complaint(const MeshFileConfig& config) {
   return test::fault_of([&] { load_mesh(config); });
 }
 
-inline bool says(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A box whose six sides take two materials in turn, with one vertex doubled on purpose.
 inline TriangleMesh two_coloured_box() {
   TriangleMesh mesh;
@@ -56,21 +52,18 @@ inline TriangleMesh two_coloured_box() {
 }
 
 /// Every corner of every face with its face's colour, in an order that files cannot change.
-inline std::vector<std::array<float, 12>> coloured_triangles(const TriangleMesh& mesh,
-                                                             bool with_colours) {
+inline std::vector<std::array<float, 12>> coloured_triangles(const TriangleMesh& mesh) {
   std::vector<std::array<float, 12>> out;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     auto& row = out.emplace_back();
-    auto face = mesh.faces[i];
     // start at the smallest corner; the sense of rotation stays
     std::array<std::array<float, 3>, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f& p = mesh.vertices_m[face[k]];
+      const Vec3f& p = mesh.vertices_m[mesh.faces[i][k]];
       corner[k] = {p.x(), p.y(), p.z()};
     }
     std::rotate(corner.begin(), std::min_element(corner.begin(), corner.end()), corner.end());
     for (std::size_t k = 0; k < 9; ++k) row[k] = corner[k / 3][k % 3];
-    if (!with_colours) continue;
     const auto& rgb = mesh.materials[mesh.face_material.empty() ? 0 : mesh.face_material[i]].rgb;
     std::copy(rgb.begin(), rgb.end(), row.begin() + 9);
   }

@@ -38,7 +38,7 @@ class Sliding final : public Flight {
   std::int64_t tick_ = 0;
 };
 
-World sphere_world() { return test::world_of(test::sphere(Vec3::Zero(), 5.0, 4), false); }
+World sphere_world() { return test::world_of(test::sphere(Vec3::Zero(), 5.0), false); }
 
 LidarModel lidar_at(double rate_hz, bool rolling) {
   LidarConfig lidar;
