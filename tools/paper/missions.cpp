@@ -6,6 +6,8 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
+#include "tools/sweep/run_cells.hpp"
+#include "tools/terminal/command_failed.hpp"
 
 namespace gnbv {
 namespace {
@@ -43,12 +45,39 @@ std::vector<Cell> paper_cells(const PaperRequest& request) {
   return cells;
 }
 
-std::vector<Cell> pictured_cells(const PaperRequest& request) {
+PaperMaterial fly_paper(const PaperRequest& request, const BenchOptions& options) {
+  PaperMaterial material{.request = request};
+  const auto read = [&](const BenchRuns& flown, const std::string& how, auto& missions) {
+    for (std::size_t i = 0; i < flown.runs.size(); ++i) {
+      const ComparedRun& run = flown.runs[i];
+      missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
+    }
+    for (const std::string& note : flown.notes) material.notes.push_back(how + note);
+    material.has_failures = material.has_failures || !flown.failures.empty();
+  };
   std::vector<Cell> cells = paper_cells(request);
+  // those that are there come first: what is left then takes what the flown ones took
+  std::stable_partition(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return look_up(bench_folder(options), cell).status == CellStatus::done;
+  });
+  read(fly_cells(cells, options), "", material.missions);
+
+  // apart from the others, since those of the same content keep no images
+  const RunCellsOptions with_images{.folder = bench_folder(options) / "with-images",
+                                    .jobs = options.jobs,
+                                    .threads = options.threads,
+                                    .retry_failed = true,
+                                    .quiet = options.quiet,
+                                    .run_arguments = {"--frames"}};
   std::erase_if(cells, [&](const Cell& cell) {
     return !cell.scenario.starts_with("lab_") || cell.seed != request.seeds.front();
   });
-  return cells;
+  for (const CellOutcome& outcome : run_cells(cells, with_images)) {
+    if (outcome.status != CellStatus::missing) continue;
+    throw CommandFailed("interrupted; the same command goes on");
+  }
+  read(read_cells(cells, with_images.folder), "with images: ", material.with_images);
+  return material;
 }
 
 std::vector<const PaperMission*> missions_of(const PaperMaterial& material,
