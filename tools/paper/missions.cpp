@@ -3,45 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "bench/compare/paper_figures.hpp"
-#include "sim/core/error.hpp"
 #include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/command_failed.hpp"
 
 namespace gnbv {
-namespace {
-
-Sweep sweep_of(const PaperTable& table, const PaperRequest& request) {
-  Sweep sweep;
-  const std::string name(table.scenario);
-  sweep.scenarios = {{.name = name,
-                      .scenario = name,
-                      .mesh = "",
-                      .bounds_auto = false,
-                      .overrides = request.overrides}};
-  for (const PaperRow& row : table.rows) {
-    sweep.methods.push_back(
-        {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
-  }
-  sweep.seeds = request.seeds;
-  return sweep;
-}
-
-}  // namespace
-
 std::vector<Cell> paper_cells(const PaperRequest& request) {
   std::vector<Cell> cells;
-  for (const std::string& scenario : request.scenarios) {
-    const PaperTable* const table = find_paper_table(scenario);
-    GNBV_CHECK(table != nullptr, "no table of {}", scenario);
-    for (Cell& cell : cells_of(sweep_of(*table, request))) cells.push_back(std::move(cell));
+  for (const std::uint64_t seed : request.seeds) {
+    for (const std::string& scenario : request.scenarios) {
+      Sweep sweep;
+      sweep.scenarios = {{.name = scenario,
+                          .scenario = scenario,
+                          .mesh = "",
+                          .bounds_auto = false,
+                          .overrides = request.overrides}};
+      for (const PaperRow& row : find_paper_table(scenario)->rows) {
+        sweep.methods.push_back(
+            {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
+      }
+      sweep.seeds = {seed};
+      std::ranges::move(cells_of(sweep), std::back_inserter(cells));
+    }
   }
-  const auto place = [&](const Cell& cell) {
-    return std::find(request.seeds.begin(), request.seeds.end(), cell.seed);
-  };
-  std::stable_sort(cells.begin(), cells.end(),
-                   [&](const Cell& a, const Cell& b) { return place(a) < place(b); });
   return cells;
 }
 

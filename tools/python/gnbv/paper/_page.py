@@ -11,15 +11,17 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
-from gnbv.plots import _draw
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 from PIL import Image
 
+from gnbv.plots import _draw
+
 Data = dict[str, Any]
 
+MINUS = "\N{MINUS SIGN}"
 # that LaTeX has without a package, or has otherwise in its first font
-SIGNS = {"−": "$-$", "±": r"$\pm$", "†": r"$\dagger$", "<": "$<$", ">": "$>$", "|": "$|$"}
+SIGNS = {MINUS: "$-$", "±": r"$\pm$", "†": r"$\dagger$", "<": "$<$", ">": "$>$", "|": "$|$"}
 TEX_MARKS = {
     "block_start_string": "<%",
     "block_end_string": "%>",
@@ -31,15 +33,15 @@ TEX_MARKS = {
 
 
 def amount(value: float | None, decimals: int, sign: str = "-") -> str:
-    """ "10,970", "−1.5"; with the sign "+" also "+3.0"; a dash where it is not known."""
+    """As "10,970", with the sign "+" also "+3.0"; a dash where it is not known."""
     if value is None:
         return "-"
     text = f"{round(value, decimals) + 0.0:{sign},.{decimals}f}"
-    return text.lstrip("+") if not text.strip("+-0.,") else text.replace("-", "−")
+    return text.lstrip("+") if not text.strip("+-0.,") else text.replace("-", MINUS)
 
 
 def estimate(figure: Data, decimals: int, sign: str = "-") -> str:
-    """ "1,396.5 ±12.0"; of one mission without an interval."""
+    """As "1,396.5 ±12.0"; of one mission without an interval."""
     width = figure["half_width"]
     interval = "" if width is None else f" ±{amount(width, decimals)}"
     return amount(figure["ours"], decimals, sign) + interval
@@ -77,7 +79,7 @@ def tex(value: object) -> str:
 def render(template: str, document: Data, **options: Any) -> str:
     jinja = Environment(trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined, **options)
     jinja.filters |= {"amount": amount, "estimate": estimate, "printed": printed}
-    return jinja.from_string(template).render(document)
+    return str(jinja.from_string(template).render(document))
 
 
 def main(request: Data) -> Data:
