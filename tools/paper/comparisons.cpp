@@ -14,7 +14,6 @@ namespace gnbv {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Missions = std::vector<const PaperMission*>;
 
 struct Column {
   const char* head;
@@ -80,97 +79,100 @@ Json known(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-bool is_any_cut(const Missions& missions, const PaperRow& row) {
-  return std::any_of(missions.begin(), missions.end(),
-                     [&](const PaperMission* mission) { return is_cut(*mission, row); });
-}
+/// A row of the paper's, and what the missions of it came to.
+struct FlownRow {
+  const PaperRow& printed;
+  std::map<std::uint64_t, Values> ours = {};  // by seed
+  std::size_t views = 0;                      // that are compared, and
+  std::size_t flown_views = 0;                // all of them: the most of any mission
+  bool has_cut = false;
+};
 
-/// Ours beside what a row prints, column by column; `ours` are the values of its missions.
-Json compared_figures(const PaperRow& row, const std::vector<Values>& ours, bool has_cut) {
-  const Values printed = printed_values(row);
-  Json figures = Json::array();
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    std::vector<double> values;
-    for (const Values& of_mission : ours) {
-      if (of_mission[i]) values.push_back(*of_mission[i]);
-    }
-    Json& figure = figures.emplace_back(Json{{"printed", known(printed[i])},
-                                             {"ours", nullptr},
-                                             {"half_width", nullptr},
-                                             {"difference", nullptr},
-                                             {"verdict", nullptr}});
-    if (values.empty()) continue;
-    const MeanEstimate mean = estimate_mean(values);
-    figure["ours"] = mean.mean;
-    figure["half_width"] = known(mean.half_width);
-    if (!printed[i]) continue;
-    const double away = mean.mean - *printed[i];
-    const PaperVerdict verdict = agreement(mean, *printed[i], kColumns[i].is_coverage);
-    figure["difference"] = kColumns[i].is_coverage ? away : 100.0 * away / std::abs(*printed[i]);
-    figure["verdict"] = has_cut && verdict == PaperVerdict::differs ? PaperVerdict::cut : verdict;
+FlownRow flown_row(const PaperMaterial& material, const PaperTable& table, const PaperRow& row) {
+  FlownRow flown{row};
+  for (const PaperMission* mission : missions_of(material, table.scenario, row.utility)) {
+    flown.ours.emplace(mission->seed, our_values(*mission, row));
+    flown.views = std::max(flown.views, compared_views(*mission, row));
+    flown.flown_views = std::max(flown.flown_views, mission->record.views.size());
+    flown.has_cut = flown.has_cut || is_cut(*mission, row);
   }
-  return figures;
-}
-
-Json compared_row(const PaperRow& row, const Missions& missions) {
-  std::vector<Values> ours;
-  std::size_t views = 0, flown_views = 0;
-  for (const PaperMission* mission : missions) {
-    ours.push_back(our_values(*mission, row));
-    views = std::max(views, compared_views(*mission, row));
-    flown_views = std::max(flown_views, mission->record.views.size());
-  }
-  return {{"label", row.label},
-          {"utility", row.utility},
-          {"doubtful", is_doubtful(row)},
-          {"missions", missions.size()},
-          {"printed_views", known(row.iterations)},
-          {"views", views},
-          {"flown_views", flown_views},
-          {"figures", compared_figures(row, ours, is_any_cut(missions, row))}};
+  return flown;
 }
 
 /// The profile does not depend on the utility: one mission a seed.
-Json compared_profile(const PaperMaterial& material, const PaperTable& table) {
-  std::map<std::uint64_t, const PaperMission*> by_seed;
-  for (const PaperRow& row : table.rows) {
-    for (const PaperMission* mission : missions_of(material, table.scenario, row.utility)) {
-      by_seed.emplace(mission->seed, mission);
-    }
+FlownRow flown_profile(const PaperMaterial& material, const PaperTable& table) {
+  FlownRow flown{*table.profile};
+  for (const PaperMission& mission : material.missions) {
+    if (mission.scenario != table.scenario) continue;
+    flown.ours.emplace(mission.seed, profile_values(mission));
   }
-  std::vector<Values> ours;
-  for (const auto& [seed, mission] : by_seed) ours.push_back(profile_values(*mission));
-  Json row = compared_row(*table.profile, {});
-  row["missions"] = ours.size();
-  row["figures"] = compared_figures(*table.profile, ours, false);
-  return row;
+  return flown;
+}
+
+/// Of one column.
+Json compared_number(const std::optional<double>& printed, const std::vector<double>& ours,
+                     bool is_coverage, bool has_cut) {
+  Json number = {{"printed", known(printed)},
+                 {"ours", nullptr},
+                 {"half_width", nullptr},
+                 {"difference", nullptr},
+                 {"verdict", nullptr}};
+  if (ours.empty()) return number;
+  const MeanEstimate mean = estimate_mean(ours);
+  number["ours"] = mean.mean;
+  number["half_width"] = known(mean.half_width);
+  if (!printed) return number;
+  const double away = mean.mean - *printed;
+  const PaperVerdict verdict = agreement(mean, *printed, is_coverage);
+  number["difference"] = is_coverage ? away : 100.0 * away / std::abs(*printed);
+  number["verdict"] = has_cut && verdict == PaperVerdict::differs ? PaperVerdict::cut : verdict;
+  return number;
+}
+
+Json compared_row(const FlownRow& row) {
+  const Values printed = printed_values(row.printed);
+  Json figures = Json::array();
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    std::vector<double> ours;
+    for (const auto& [seed, values] : row.ours) {
+      if (values[i]) ours.push_back(*values[i]);
+    }
+    figures.push_back(compared_number(printed[i], ours, kColumns[i].is_coverage, row.has_cut));
+  }
+  return {{"label", row.printed.label},
+          {"utility", row.printed.utility},
+          {"doubtful", is_doubtful(row.printed)},
+          {"missions", row.ours.size()},
+          {"printed_views", known(row.printed.iterations)},
+          {"views", row.views},
+          {"flown_views", row.flown_views},
+          {"figures", std::move(figures)}};
 }
 
 /// The first's minus the second's, paired by seed, column by column; null where one has none.
-Json compared_pair(const PaperRow& first, const Missions& of_first, const PaperRow& second,
-                   const Missions& of_second) {
-  const Values printed_first = printed_values(first), printed_second = printed_values(second);
-  const bool has_cut = is_any_cut(of_first, first) || is_any_cut(of_second, second);
+Json compared_pair(const FlownRow& first, const FlownRow& second) {
+  const Values of_first = printed_values(first.printed), of_second = printed_values(second.printed);
   Json figures = Json::array();
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     std::vector<double> differences;
-    for (const PaperMission* a : of_first) {
-      for (const PaperMission* b : of_second) {
-        if (a->seed != b->seed) continue;
-        const auto of_a = our_values(*a, first)[i], of_b = our_values(*b, second)[i];
-        if (of_a && of_b) differences.push_back(*of_a - *of_b);
-      }
+    for (const auto& [seed, values] : first.ours) {
+      const auto other = second.ours.find(seed);
+      if (other == second.ours.end() || !values[i] || !other->second[i]) continue;
+      differences.push_back(*values[i] - *other->second[i]);
     }
     Json& figure = figures.emplace_back(nullptr);
-    if (!printed_first[i] || !printed_second[i] || differences.empty()) continue;
-    const double printed = *printed_first[i] - *printed_second[i];
+    if (!of_first[i] || !of_second[i] || differences.empty()) continue;
+    const double printed = *of_first[i] - *of_second[i];
     const MeanEstimate ours = estimate_mean(differences);
+    const bool has_cut = first.has_cut || second.has_cut;
     figure = {{"printed", printed},
               {"ours", ours.mean},
               {"half_width", known(ours.half_width)},
               {"verdict", has_cut ? PaperVerdict::undecided : order_of_pair(printed, differences)}};
   }
-  return {{"first", first.label}, {"second", second.label}, {"figures", std::move(figures)}};
+  return {{"first", first.printed.label},
+          {"second", second.printed.label},
+          {"figures", std::move(figures)}};
 }
 
 }  // namespace
@@ -194,18 +196,16 @@ bool is_cut(const PaperMission& mission, const PaperRow& row) {
 }
 
 Json compared_table(const PaperMaterial& material, const PaperTable& table) {
-  std::vector<Missions> missions;  // of each row
+  std::vector<FlownRow> flown;
+  for (const PaperRow& row : table.rows) flown.push_back(flown_row(material, table, row));
   Json rows = Json::array(), pairs = Json::array();
-  for (const PaperRow& row : table.rows) {
-    missions.push_back(missions_of(material, table.scenario, row.utility));
-    rows.push_back(compared_row(row, missions.back()));
-  }
-  if (table.profile) rows.push_back(compared_profile(material, table));
+  for (const FlownRow& row : flown) rows.push_back(compared_row(row));
+  if (table.profile) rows.push_back(compared_row(flown_profile(material, table)));
   // from the last row, which is Proposed, to the others
-  for (std::size_t a = table.rows.size(); a-- > 0;) {
+  for (std::size_t a = flown.size(); a-- > 0;) {
     for (std::size_t b = 0; b < a; ++b) {
-      if (missions[a].empty() || missions[b].empty()) continue;
-      pairs.push_back(compared_pair(table.rows[a], missions[a], table.rows[b], missions[b]));
+      if (flown[a].ours.empty() || flown[b].ours.empty()) continue;
+      pairs.push_back(compared_pair(flown[a], flown[b]));
     }
   }
   return {{"scenario", table.scenario},

@@ -63,12 +63,15 @@ class FigureDesk {
   }
 
   void add(const std::string& what, const std::string& label, const Image& image) {
-    add_file(what, ".png", label, nullptr);
-    write_png(image, folder_ / kFiguresFolder / (name_of(what) + ".png"));
+    const std::string path = path_of(what, ".png");
+    pictures_.push_back({{"path", path}, {"label", label}, {"curve", nullptr}});
+    write_png(image, folder_ / path);
   }
+  /// A curve is drawn with the page.
   void add(const std::string& what, Figure curve) {
-    curve.name = name_of(what);
-    add_file(what, ".svg", "", curve.name);
+    const fs::path path = path_of(what, ".svg");
+    curve.name = path.stem().string();
+    pictures_.push_back({{"path", path.string()}, {"label", ""}, {"curve", curve.name}});
     curves.push_back(std::move(curve));
   }
 
@@ -80,14 +83,8 @@ class FigureDesk {
   }
 
  private:
-  std::string name_of(const std::string& what) const {
-    return fmt::format("fig{:0>2}-{}", number_, what);
-  }
-  void add_file(const std::string& what, const char* ending, const std::string& label,
-                const Json& curve) {
-    pictures_.push_back({{"path", fmt::format("{}/{}{}", kFiguresFolder, name_of(what), ending)},
-                         {"label", label},
-                         {"curve", curve}});
+  std::string path_of(const std::string& what, const char* ending) const {
+    return fmt::format("{}/fig{:0>2}-{}{}", kFiguresFolder, number_, what, ending);
   }
 
   fs::path folder_;
@@ -175,36 +172,34 @@ void draw_frontiers(FigureDesk& desk) {
 }
 
 void draw_paths(FigureDesk& desk) {
+  const PaperTable& table = *find_paper_table(desk.scenario);
   std::list<RunSource> sources;
   std::vector<RunSource*> runs;
-  std::vector<std::string> utilities, names;
+  std::vector<std::string> names;
   char letter = 'a';
   for (const char* const utility : {"proposed", "isler", "bircher"}) {  // as the paper
-    const std::string name = fmt::format(
-        "({}) {}", letter++, find_row(*find_paper_table(desk.scenario), utility)->label);
+    const std::string name = fmt::format("({}) {}", letter++, find_row(table, utility)->label);
     try {
       const fs::path& folder = desk.mission(utility).record.folder;
       sources.emplace_back(folder, desk.threads, [](double, const std::string&) {});
+      runs.push_back(&sources.back());
+      names.push_back(name);
     } catch (const BadInput& error) {
       desk.missing.emplace_back(error.what());
-      continue;
     }
-    runs.push_back(&sources.back());
-    utilities.emplace_back(utility);
-    names.push_back(name);
   }
   if (runs.empty()) return;
   for (const PictureKind* const kind : {&kPathPicture, &kCoveragePicture}) {
     const PanelLayout layout = lay_out(*kind, runs, plain_options());  // one camera for all
     const PictureOptions options = with_shared_angles(*kind, runs, plain_options(), layout.view);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      const RunRecord& record = runs[i]->record();
-      const std::string label = kind == &kPathPicture
-                                    ? fmt::format("{}: {} views, {:.0f} m", names[i],
-                                                  record.views.size(), record.figures->straight_m)
-                                    : fmt::format("{}: {:.1f} % at 0.05 m", names[i],
-                                                  100.0 * record.figures->coverage_final[0]);
-      desk.add(fmt::format("{}-{}", kind->name, utilities[i]), label,
+      const RunFigures& figures = *runs[i]->record().figures;
+      const std::string reached =
+          kind == &kPathPicture
+              ? fmt::format("{} views, {:.0f} m", figures.iterations, figures.straight_m)
+              : fmt::format("{:.1f} % at 0.05 m", 100.0 * figures.coverage_final[0]);
+      desk.add(fmt::format("{}-{}", kind->name, figures.utility),
+               fmt::format("{}: {}", names[i], reached),
                draw_picture(*kind, *runs[i], options, layout, desk.renderer()));
       runs[i]->forget();  // maps of many missions are large
     }
