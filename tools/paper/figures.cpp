@@ -33,8 +33,8 @@ const Rgb kImagePlace = srgb(0x12a150);
 /// Where a figure is drawn: the missions, and what it leaves.
 class FigureDesk {
  public:
-  FigureDesk(const PaperMaterial& material, fs::path folder, int threads)
-      : material(material), threads(threads), folder_(std::move(folder)) {}
+  FigureDesk(const PaperMaterial& its_material, fs::path folder, int its_threads)
+      : material(its_material), threads(its_threads), folder_(std::move(folder)) {}
 
   const PaperMaterial& material;
   const int threads;

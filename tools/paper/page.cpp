@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 GNBV_EMBED(paper_schema_json, GNBV_PAPER_SCHEMA);
 GNBV_EMBED(page_draw_py, GNBV_PYTHON_FOLDER "/plots/_draw.py");
 GNBV_EMBED(page_py, GNBV_PYTHON_FOLDER "/paper/_page.py");
-GNBV_EMBED(page_template, GNBV_PYTHON_FOLDER "/paper/page.html");
-GNBV_EMBED(tables_template, GNBV_PYTHON_FOLDER "/paper/tables.tex");
+GNBV_EMBED(paper_template, GNBV_PYTHON_FOLDER "/paper/page.html");
+GNBV_EMBED(paper_tables_template, GNBV_PYTHON_FOLDER "/paper/tables.tex");
 
 constexpr const char* kTablesFolder = "tables";
 
@@ -129,8 +129,8 @@ void write_page(const PaperMaterial& material, const std::string& command, const
   write_file_atomically(folder / "paper.json", text_of(document) + "\n");
   const Json page = ask_page({{"document", document},
                               {"folder", fs::absolute(folder).string()},
-                              {"html", page_template()},
-                              {"tex", tables_template()}});
+                              {"html", paper_template()},
+                              {"tex", paper_tables_template()}});
   write_file_atomically(folder / kTablesFolder / "paper.tex", page["tex"].get<std::string>());
   write_file_atomically(folder / "index.html", page["html"].get<std::string>());
 }
