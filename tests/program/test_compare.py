@@ -1,6 +1,5 @@
 """Tables and comparisons: missions flown, read back and judged."""
 import json
-import re
 
 import pytest
 from program import summary
@@ -131,49 +130,3 @@ def test_table_flies_again_without_noise_what_lies_above_the_ceiling(run):
     assert [row['utility'] for row in found[:2]] == ['Proposed', 'Proposed, exact sensors']
     assert found[0]['share_of_ceiling'] > 1.0 > found[1]['share_of_ceiling']
     assert found[1]['metres_to_90_runs'] is not None
-
-
-# ---- the paper's page ----
-TINY = '--scenarios lab_model --set planner.termination.max_iterations=3'
-
-
-@pytest.fixture
-def paper(run):
-    return lambda more, *says, code=0: run(
-        f'paper -o page --cells cells --seeds 1 --threads 1 --quiet {more}', *says, code=code)
-
-
-def test_paper_flies_nothing_twice_and_its_files_are_there(paper, tmp_path):
-    assert paper(TINY).out == 'page/index.html\n'
-    html = (tmp_path / 'page/index.html').read_text()
-    shown = set(re.findall('<section id=fig([0-9]+)>', html))
-    assert shown >= {'2', '4', '5', '6', '13', '14', '15'} and '8' not in shown  # the aircraft's
-    assert '://' not in html  # no network
-    linked = set(re.findall("href='([^#'][^']*)'", html))
-    assert all((tmp_path / 'page' / name).is_file() for name in linked)
-    assert linked >= {'tables/lab_model.md', 'tables/lab_model.csv', 'figures/fig02-rays.png',
-                      'figures/fig04-profile.png', 'figures/fig13-path-top.png',
-                      'figures/fig14-density-entropy.svg', 'figures/fig15-surface-top.png'}
-    # the paper's numbers stand beside ours
-    assert '30,140' in html and 'compared after 3 views, where ours ended' in html
-    flown = {path: path.stat().st_mtime_ns for path in tmp_path.rglob('cells/**/summary.json')}
-    assert len(flown) == 2  # with images and without
-    paper(TINY)
-    assert {path: path.stat().st_mtime_ns for path in flown} == flown
-    assert (tmp_path / 'page/index.html').read_text() == html
-
-
-def test_paper_says_which_mission_failed(paper, tmp_path):
-    paper("--scenarios lab_model --set 'start={position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}' "
-          '--set planner.validity.z_min_m=0', 'not every mission came to its end', code=1)
-    html = (tmp_path / 'page/index.html').read_text()
-    for words in ('lab_model, proposed: without a result: exit code 2: gnbv: start',
-                  'Proposed: no mission came to its end', '30,140'):
-        assert words in html
-
-
-@pytest.mark.parametrize('words', ['--scenarios moon', '--set planner.utilty.name=isler',
-                                   '--seeds 0', '--jobs 0'])
-def test_paper_refuses_bad_input_and_leaves_no_page(paper, tmp_path, words):
-    paper(words, code=2)
-    assert not (tmp_path / 'page/index.html').exists()

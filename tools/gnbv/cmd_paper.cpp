@@ -3,18 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "bench/compare/paper_figures.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/paper/page.hpp"
-#include "tools/sweep/run_cells.hpp"
+#include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/progress.hpp"
 
 namespace gnbv {
@@ -58,81 +56,21 @@ std::string command_of(const PaperOptions& options) {
   return command;
 }
 
-/// The labs once more, with their images; apart from the others, since those of the same content
-/// keep none.
-void fly_pictured(const PaperOptions& options, PaperMaterial& material, bool& has_failures) {
-  const std::vector<Cell> cells = pictured_cells(material.request);
-  const RunCellsOptions run{.folder = bench_folder(options.bench) / "with-images",
-                            .jobs = options.bench.jobs,
-                            .threads = options.bench.threads,
-                            .retry_failed = true,
-                            .quiet = options.bench.quiet,
-                            .run_arguments = {"--frames"}};
-  const std::vector<CellOutcome> outcomes = run_cells(cells, run);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (outcomes[i].status == CellStatus::missing) {
-      throw CommandFailed("interrupted; the same command goes on");
-    }
-    if (outcomes[i].status == CellStatus::done) {
-      material.with_images.push_back(
-          {cells[i].scenario, cells[i].method, cells[i].seed, read_run(outcomes[i].run)});
-    } else {
-      has_failures = true;
-      material.notes.push_back(fmt::format("{}, {}: without images: {}", cells[i].scenario,
-                                           cells[i].method, outcomes[i].failure));
-    }
-  }
-}
-
-PaperMaterial fly(const PaperOptions& options, bool& has_failures) {
-  PaperMaterial material{
-      .request = {.scenarios = scenarios_asked(options),
-                  .seeds = seeds_from(options.first_seed, options.bench.seed_count),
-                  .overrides = options.overrides},
-      .missions = {},
-      .with_images = {},
-      .notes = {}};
-  std::vector<Cell> cells = paper_cells(material.request);
-  // those that are there come first: what is left then takes what the flown ones took
-  std::stable_partition(cells.begin(), cells.end(), [&](const Cell& cell) {
-    return look_up(bench_folder(options.bench), cell).status == CellStatus::done;
-  });
-  const BenchRuns flown = fly_cells(cells, options.bench);
-  for (std::size_t i = 0; i < flown.runs.size(); ++i) {
-    const ComparedRun& run = flown.runs[i];
-    material.missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
-  }
-  material.notes = flown.notes;
-  has_failures = !flown.failures.empty();
-  fly_pictured(options, material, has_failures);
-  return material;
-}
-
-std::vector<DrawnFigure> draw(const PaperOptions& options, const PaperMaterial& material) {
-  ProgressBar bar("figures", options.bench.quiet);
-  return draw_figures(material, options.out, thread_count(options.bench.threads),
-                      [&](std::size_t done, std::size_t all, const std::string& figure) {
-                        bar.show(static_cast<double>(done) / static_cast<double>(all), figure);
-                      });
-}
-
 void paper(const PaperOptions& options) {
+  need_page_python();
   make_folder(options.out);  // one that cannot be made costs no mission
-  bool has_failures = false;
-  const PaperMaterial material = fly(options, has_failures);
-  PaperPage page{.command = command_of(options),
-                 .version = GNBV_VERSION,
-                 .seeds = material.request.seeds.size(),
-                 .tables = shown_tables(material),
-                 .claims = check_claims(material),
-                 .figures = draw(options, material),
-                 .notes = material.notes};
-  for (ShownTable& table : page.tables) {
-    table.whole.notes.push_back(fmt::format("{}, version {}", page.command, GNBV_VERSION));
-  }
-  write_page(page, options.out);
+  const PaperMaterial material =
+      fly_paper({.scenarios = scenarios_asked(options),
+                 .seeds = seeds_from(options.first_seed, options.bench.seed_count),
+                 .overrides = options.overrides},
+                options.bench);
+  ProgressBar bar("figures", options.bench.quiet);
+  write_page(material, command_of(options), options.out, thread_count(options.bench.threads),
+             [&](double share, const std::string& figure) { bar.show(share, figure); });
   fmt::print("{}\n", (options.out / "index.html").string());
-  if (has_failures) throw CommandFailed("not every mission came to its end; the page says which");
+  if (material.has_failures) {
+    throw CommandFailed("not every mission came to its end; the page says which");
+  }
 }
 
 }  // namespace
@@ -144,7 +82,7 @@ void add_paper_command(CLI::App& app) {
       "paper", "the paper's whole evaluation flown and drawn, beside what the paper shows");
   command
       ->add_option("-o,--out", options->out,
-                   "folder to write: index.html, tables/, figures/; made if need be")
+                   "folder to write: index.html, paper.json, tables/, figures/; made if need be")
       ->required();
   command->add_option("--cells", options->bench.out,
                       "folder of the missions (default: runs/bench, which `table` and `compare` "

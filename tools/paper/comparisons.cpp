@@ -3,158 +3,188 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "bench/score/run_figures.hpp"
-#include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
+#include "tools/figures/group_figures.hpp"
+#include "tools/paper/verdicts.hpp"
 
 namespace gnbv {
 namespace {
 
-using Missions = std::vector<const PaperMission*>;
-using Value = std::optional<double>;
+using Json = nlohmann::ordered_json;
 
-const CoverageCurve& curve_of(const PaperMission& mission) { return mission.record.figures->curve; }
+struct Column {
+  const char* head;
+  int decimals;
+  bool is_coverage;
+};
+constexpr std::array<Column, 7> kColumns = {{{"Entropy reduction", 0, false},
+                                             {"Distance (m)", 1, false},
+                                             {"Time (min)", 1, false},
+                                             {"0.05 m (%)", 1, true},
+                                             {"0.10 m (%)", 1, true},
+                                             {"0.50 m (%)", 1, true},
+                                             {"Points/voxel", 0, false}}};
+using Values = std::array<std::optional<double>, kColumns.size()>;  // each may be missing
 
-Value entropy_reduction(const PaperMission& m, std::size_t views) {
-  const std::vector<ViewRecord>& all = m.record.views;
-  if (views == 0 || views > all.size()) return std::nullopt;
-  // what was left to find out after so many views, and at the end
-  const double later_nat = all[views - 1].entropy_nat - all.back().entropy_nat;
-  return m.record.figures->entropy_reduction_nat - later_nat;
+Values printed_values(const PaperRow& row) {
+  Values values = {row.entropy_reduction, row.distance_m, row.time_min};
+  for (std::size_t size = 0; row.coverage_percent && size < 3; ++size) {
+    values[3 + size] = (*row.coverage_percent)[size];
+  }
+  values[6] = row.density_points_per_voxel;
+  return values;
 }
 
-Value metres(const PaperMission& m, std::size_t views) {
-  if (views >= curve_of(m).metres.size()) return std::nullopt;
-  return curve_of(m).metres[views];
-}
-
-Value minutes(const PaperMission& m, std::size_t views) {
-  if (views >= curve_of(m).seconds.size()) return std::nullopt;
-  return seconds_of_views(curve_of(m), views) / 60.0;
-}
-
-template <std::size_t Size>
-Value coverage_percent(const PaperMission& m, std::size_t views) {
-  if (views >= curve_of(m).coverage.size()) return std::nullopt;
-  return 100.0 * curve_of(m).coverage[views][Size];
-}
-
-template <std::size_t Size>
-Value printed_coverage(const PaperRow& row) {
-  return row.coverage_percent ? Value((*row.coverage_percent)[Size]) : std::nullopt;
-}
-
-template <std::size_t Size>
-Value profile_coverage(const PaperMission& m) {
-  return 100.0 * m.record.figures->coverage_profile[Size];
-}
-
-Value density(const PaperMission& m, std::size_t views) {
-  if (views == 0 || views > m.record.views.size()) return std::nullopt;
-  return m.record.views[views - 1].density_points_per_voxel;
-}
-
-Value none_of(const PaperMission&) { return std::nullopt; }
-
-const std::array<PaperFigure, 7> kFigures = {{
-    {"Entropy reduction", 0, false, [](const PaperRow& r) { return r.entropy_reduction; },
-     entropy_reduction, none_of},
-    {"Distance (m)", 1, false, [](const PaperRow& r) { return r.distance_m; }, metres,
-     [](const PaperMission& m) { return Value(m.record.figures->before.profile_m); }},
-    {"Time (min)", 1, false, [](const PaperRow& r) { return r.time_min; }, minutes, none_of},
-    {"0.05 m (%)", 1, true, printed_coverage<0>, coverage_percent<0>, profile_coverage<0>},
-    {"0.10 m (%)", 1, true, printed_coverage<1>, coverage_percent<1>, profile_coverage<1>},
-    {"0.50 m (%)", 1, true, printed_coverage<2>, coverage_percent<2>, profile_coverage<2>},
-    {"Points/voxel", 0, false, [](const PaperRow& r) { return r.density_points_per_voxel; },
-     density, none_of},
-}};
-
-/// How many views of a mission are compared with a row.
-std::size_t views_of(const PaperMission& mission, const PaperRow& row) {
+/// Of a mission after its first views: as many as the row has, or all where there are fewer.
+std::size_t compared_views(const PaperMission& mission, const PaperRow& row) {
   const std::size_t flown = mission.record.views.size();
-  if (!row.iterations) return flown;
-  return std::min(flown, static_cast<std::size_t>(*row.iterations));
+  return row.iterations ? std::min(flown, static_cast<std::size_t>(*row.iterations)) : flown;
 }
 
-bool is_any_cut(const Missions& missions, const PaperRow& row) {
-  return std::any_of(missions.begin(), missions.end(),
-                     [&](const PaperMission* mission) { return is_cut(*mission, row); });
-}
-
-ComparedFigure compared(const PaperFigure& figure, const Value& printed,
-                        const std::vector<double>& ours) {
-  ComparedFigure both{.printed = printed};
-  if (ours.empty()) return both;
-  both.ours = estimate_mean(ours);
-  if (!printed) return both;
-  both.agreement = agreement(*both.ours, *printed,
-                             figure.is_coverage ? kCoverageScale : scale_of_amount(*printed));
-  return both;
-}
-
-ComparedRow compare_row(const PaperRow& row, const Missions& missions) {
-  ComparedRow all{.label = std::string(row.label),
-                  .utility = std::string(row.utility),
-                  .missions = missions.size(),
-                  .printed_views = row.iterations,
-                  .is_doubtful = is_doubtful(row),
-                  .figures = {}};
-  for (const PaperMission* mission : missions) {
-    all.views = std::max(all.views, static_cast<int>(views_of(*mission, row)));
-    all.flown_views = std::max(all.flown_views, static_cast<int>(mission->record.views.size()));
+Values our_values(const PaperMission& mission, const PaperRow& row) {
+  const RunFigures& figures = *mission.record.figures;
+  const std::vector<ViewRecord>& flown = mission.record.views;
+  const std::size_t views = compared_views(mission, row);
+  Values values;
+  if (views > 0) {
+    const ViewRecord& last = flown[views - 1];
+    // less what was found out after it
+    values[0] = figures.entropy_reduction_nat - (last.entropy_nat - flown.back().entropy_nat);
+    values[6] = last.density_points_per_voxel;
   }
-  const bool has_cut = is_any_cut(missions, row);
-  for (const PaperFigure& figure : kFigures) {
-    std::vector<double> values;
-    for (const PaperMission* mission : missions) {
-      const Value value = figure.ours(*mission, views_of(*mission, row));
-      if (value) values.push_back(*value);
-    }
-    all.figures.push_back(compared(figure, figure.printed(row), values));
-    std::optional<Agreement>& agreement = all.figures.back().agreement;
-    if (has_cut && agreement == Agreement::differs) agreement = Agreement::cut;
+  if (views > figures.curve.views() || figures.curve.coverage.empty()) return values;
+  values[1] = figures.curve.metres[views];
+  values[2] = seconds_of_views(figures.curve, views) / 60.0;
+  for (std::size_t size = 0; size < 3; ++size) {
+    values[3 + size] = 100.0 * figures.curve.coverage[views][size];
   }
-  return all;
+  return values;
+}
+
+Values profile_values(const PaperMission& mission) {
+  const RunFigures& figures = *mission.record.figures;
+  Values values;
+  values[1] = figures.before.profile_m;
+  for (std::size_t size = 0; size < 3; ++size) {
+    values[3 + size] = 100.0 * figures.coverage_profile[size];
+  }
+  return values;
+}
+
+template <typename Value>
+Json known(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// A row of the paper's, and what the missions of it came to.
+struct FlownRow {
+  const PaperRow& printed;
+  std::map<std::uint64_t, Values> ours = {};  // by seed
+  std::size_t views = 0;                      // that are compared, and
+  std::size_t flown_views = 0;                // all of them: the most of any mission
+  bool has_cut = false;
+};
+
+FlownRow flown_row(const PaperMaterial& material, const PaperTable& table, const PaperRow& row) {
+  FlownRow flown{row};
+  for (const PaperMission* mission : missions_of(material, table.scenario, row.utility)) {
+    flown.ours.emplace(mission->seed, our_values(*mission, row));
+    flown.views = std::max(flown.views, compared_views(*mission, row));
+    flown.flown_views = std::max(flown.flown_views, mission->record.views.size());
+    flown.has_cut = flown.has_cut || is_cut(*mission, row);
+  }
+  return flown;
 }
 
 /// The profile does not depend on the utility: one mission a seed.
-ComparedRow compare_profile(const PaperRow& row, const PaperMaterial& material,
-                            const PaperTable& table) {
-  std::map<std::uint64_t, const PaperMission*> by_seed;
-  for (const PaperRow& planner : table.rows) {
-    for (const PaperMission* mission : missions_of(material, table.scenario, planner.utility)) {
-      by_seed.emplace(mission->seed, mission);
-    }
+FlownRow flown_profile(const PaperMaterial& material, const PaperTable& table) {
+  FlownRow flown{*table.profile};
+  for (const PaperMission& mission : material.missions) {
+    if (mission.scenario != table.scenario) continue;
+    flown.ours.emplace(mission.seed, profile_values(mission));
   }
-  ComparedRow all{
-      .label = std::string(row.label), .utility = "", .missions = by_seed.size(), .figures = {}};
-  for (const PaperFigure& figure : kFigures) {
-    std::vector<double> values;
-    for (const auto& [seed, mission] : by_seed) {
-      if (const Value value = figure.profile(*mission)) values.push_back(*value);
-    }
-    all.figures.push_back(compared(figure, figure.printed(row), values));
-  }
-  return all;
+  return flown;
 }
 
-/// The first's minus the second's, over the seeds that both have.
-std::vector<double> paired_differences(const PaperFigure& figure, const PaperRow& first,
-                                       const Missions& of_first, const PaperRow& second,
-                                       const Missions& of_second) {
-  std::vector<double> differences;
-  for (const PaperMission* a : of_first) {
-    for (const PaperMission* b : of_second) {
-      if (a->seed != b->seed) continue;
-      const Value of_a = figure.ours(*a, views_of(*a, first));
-      const Value of_b = figure.ours(*b, views_of(*b, second));
-      if (of_a && of_b) differences.push_back(*of_a - *of_b);
+/// Of one column.
+Json compared_number(const std::optional<double>& printed, const std::vector<double>& ours,
+                     bool is_coverage, bool has_cut) {
+  Json number = {{"printed", known(printed)},
+                 {"ours", nullptr},
+                 {"half_width", nullptr},
+                 {"difference", nullptr},
+                 {"verdict", nullptr}};
+  if (ours.empty()) return number;
+  const MeanEstimate mean = estimate_mean(ours);
+  number["ours"] = mean.mean;
+  number["half_width"] = known(mean.half_width);
+  if (!printed) return number;
+  const double away = mean.mean - *printed;
+  const PaperVerdict verdict = agreement(mean, *printed, is_coverage);
+  number["difference"] = is_coverage ? away : 100.0 * away / std::abs(*printed);
+  number["verdict"] = has_cut && verdict == PaperVerdict::differs ? PaperVerdict::cut : verdict;
+  return number;
+}
+
+Json compared_row(const FlownRow& row) {
+  const Values printed = printed_values(row.printed);
+  Json figures = Json::array();
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    std::vector<double> ours;
+    for (const auto& [seed, values] : row.ours) {
+      if (values[i]) ours.push_back(*values[i]);
     }
+    figures.push_back(compared_number(printed[i], ours, kColumns[i].is_coverage, row.has_cut));
   }
-  return differences;
+  return {{"label", row.printed.label},
+          {"utility", row.printed.utility},
+          {"doubtful", is_doubtful(row.printed)},
+          {"missions", row.ours.size()},
+          {"printed_views", known(row.printed.iterations)},
+          {"views", row.views},
+          {"flown_views", row.flown_views},
+          {"figures", std::move(figures)}};
+}
+
+/// The first's minus the second's, paired by seed, column by column; null where one has none.
+Json compared_pair(const FlownRow& first, const FlownRow& second) {
+  const Values of_first = printed_values(first.printed), of_second = printed_values(second.printed);
+  Json figures = Json::array();
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    std::vector<double> differences;
+    for (const auto& [seed, values] : first.ours) {
+      const auto other = second.ours.find(seed);
+      if (other == second.ours.end() || !values[i] || !other->second[i]) continue;
+      differences.push_back(*values[i] - *other->second[i]);
+    }
+    Json& figure = figures.emplace_back(nullptr);
+    if (!of_first[i] || !of_second[i] || differences.empty()) continue;
+    const double printed = *of_first[i] - *of_second[i];
+    const MeanEstimate ours = estimate_mean(differences);
+    const bool has_cut = first.has_cut || second.has_cut;
+    figure = {{"printed", printed},
+              {"ours", ours.mean},
+              {"half_width", known(ours.half_width)},
+              {"verdict", has_cut ? PaperVerdict::undecided : order_of_pair(printed, differences)}};
+  }
+  return {{"first", first.printed.label},
+          {"second", second.printed.label},
+          {"figures", std::move(figures)}};
 }
 
 }  // namespace
+
+Json compared_columns() {
+  Json columns = Json::array();
+  for (const Column& column : kColumns) {
+    columns.push_back(
+        {{"head", column.head}, {"decimals", column.decimals}, {"coverage", column.is_coverage}});
+  }
+  return columns;
+}
 
 bool is_cut(const PaperMission& mission, const PaperRow& row) {
   constexpr std::array<std::string_view, 5> kLimits = {"max_iterations", "max_distance",
@@ -165,59 +195,40 @@ bool is_cut(const PaperMission& mission, const PaperRow& row) {
                                 mission.record.figures->termination) != kLimits.end();
 }
 
-std::span<const PaperFigure> compared_figures() { return kFigures; }
-
-std::vector<ComparedRow> compare_rows(const PaperMaterial& material, const PaperTable& table) {
-  std::vector<ComparedRow> rows;
-  for (const PaperRow& row : table.rows) {
-    rows.push_back(compare_row(row, missions_of(material, table.scenario, row.utility)));
-  }
-  if (table.profile) rows.push_back(compare_profile(*table.profile, material, table));
-  return rows;
-}
-
-std::vector<ComparedPair> compare_pairs(const PaperMaterial& material, const PaperTable& table) {
-  std::vector<ComparedPair> pairs;
+Json compared_table(const PaperMaterial& material, const PaperTable& table) {
+  std::vector<FlownRow> flown;
+  for (const PaperRow& row : table.rows) flown.push_back(flown_row(material, table, row));
+  Json rows = Json::array(), pairs = Json::array();
+  for (const FlownRow& row : flown) rows.push_back(compared_row(row));
+  if (table.profile) rows.push_back(compared_row(flown_profile(material, table)));
   // from the last row, which is Proposed, to the others
-  for (std::size_t a = table.rows.size(); a-- > 0;) {
+  for (std::size_t a = flown.size(); a-- > 0;) {
     for (std::size_t b = 0; b < a; ++b) {
-      const PaperRow& first = table.rows[a];
-      const PaperRow& second = table.rows[b];
-      const Missions of_a = missions_of(material, table.scenario, first.utility);
-      const Missions of_b = missions_of(material, table.scenario, second.utility);
-      const bool has_cut = is_any_cut(of_a, first) || is_any_cut(of_b, second);
-      for (std::size_t i = 0; i < kFigures.size(); ++i) {
-        const Value of_first = kFigures[i].printed(first);
-        const Value of_second = kFigures[i].printed(second);
-        if (!of_first || !of_second) continue;
-        const std::vector<double> ours = paired_differences(kFigures[i], first, of_a, second, of_b);
-        if (ours.empty()) continue;
-        const double printed = *of_first - *of_second;
-        pairs.push_back({std::string(first.label), std::string(second.label), i, printed,
-                         estimate_mean(ours),
-                         has_cut ? PairOrder::undecided : pair_order(printed, ours)});
-      }
+      if (flown[a].ours.empty() || flown[b].ours.empty()) continue;
+      pairs.push_back(compared_pair(flown[a], flown[b]));
     }
   }
-  return pairs;
+  return {{"scenario", table.scenario},
+          {"name", human_name(table.scenario)},
+          {"source", table.source},
+          {"rows", std::move(rows)},
+          {"pairs", std::move(pairs)}};
 }
 
 std::vector<DrawnGroup> mean_densities(const PaperMaterial& material, const PaperTable& table) {
   std::vector<DrawnGroup> all;
   for (const PaperRow& row : table.rows) {
-    const Missions missions = missions_of(material, table.scenario, row.utility);
-    if (missions.empty()) continue;
     std::vector<std::vector<double>> seeds;
-    for (const PaperMission* mission : missions) {
-      seeds.emplace_back();
-      while (const Value value = density(*mission, seeds.back().size() + 1)) {
-        seeds.back().push_back(*value);
+    for (const PaperMission* mission : missions_of(material, table.scenario, row.utility)) {
+      std::vector<double>& densities = seeds.emplace_back();
+      for (const ViewRecord& view : mission->record.views) {
+        densities.push_back(view.density_points_per_voxel);
       }
     }
     const std::string method(row.utility);  // of the paper's, which have looks of their own
-    auto densities =
+    auto group =
         density_group(std::string(row.label), method_looks({&method, 1}).front(), std::move(seeds));
-    if (densities) all.push_back(std::move(*densities));
+    if (group) all.push_back(std::move(*group));
   }
   return all;
 }

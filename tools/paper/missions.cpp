@@ -3,52 +3,67 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "bench/compare/paper_figures.hpp"
-#include "sim/core/error.hpp"
+#include "tools/sweep/run_cells.hpp"
+#include "tools/terminal/command_failed.hpp"
 
 namespace gnbv {
-namespace {
-
-Sweep sweep_of(const PaperTable& table, const PaperRequest& request) {
-  Sweep sweep;
-  const std::string name(table.scenario);
-  sweep.scenarios = {{.name = name,
-                      .scenario = name,
-                      .mesh = "",
-                      .bounds_auto = false,
-                      .overrides = request.overrides}};
-  for (const PaperRow& row : table.rows) {
-    sweep.methods.push_back(
-        {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
-  }
-  sweep.seeds = request.seeds;
-  return sweep;
-}
-
-}  // namespace
-
 std::vector<Cell> paper_cells(const PaperRequest& request) {
   std::vector<Cell> cells;
-  for (const std::string& scenario : request.scenarios) {
-    const PaperTable* const table = find_paper_table(scenario);
-    GNBV_CHECK(table != nullptr, "no table of {}", scenario);
-    for (Cell& cell : cells_of(sweep_of(*table, request))) cells.push_back(std::move(cell));
+  for (const std::uint64_t seed : request.seeds) {
+    for (const std::string& scenario : request.scenarios) {
+      Sweep sweep;
+      sweep.scenarios = {{.name = scenario,
+                          .scenario = scenario,
+                          .mesh = "",
+                          .bounds_auto = false,
+                          .overrides = request.overrides}};
+      for (const PaperRow& row : find_paper_table(scenario)->rows) {
+        sweep.methods.push_back(
+            {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
+      }
+      sweep.seeds = {seed};
+      std::ranges::move(cells_of(sweep), std::back_inserter(cells));
+    }
   }
-  const auto place = [&](const Cell& cell) {
-    return std::find(request.seeds.begin(), request.seeds.end(), cell.seed);
-  };
-  std::stable_sort(cells.begin(), cells.end(),
-                   [&](const Cell& a, const Cell& b) { return place(a) < place(b); });
   return cells;
 }
 
-std::vector<Cell> pictured_cells(const PaperRequest& request) {
+PaperMaterial fly_paper(const PaperRequest& request, const BenchOptions& options) {
+  PaperMaterial material{.request = request};
+  const auto read = [&](const BenchRuns& flown, const std::string& how, auto& missions) {
+    for (std::size_t i = 0; i < flown.runs.size(); ++i) {
+      const ComparedRun& run = flown.runs[i];
+      missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
+    }
+    for (const std::string& note : flown.notes) material.notes.push_back(how + note);
+    material.has_failures = material.has_failures || !flown.failures.empty();
+  };
   std::vector<Cell> cells = paper_cells(request);
+  // those that are there come first: what is left then takes what the flown ones took
+  std::stable_partition(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return look_up(bench_folder(options), cell).status == CellStatus::done;
+  });
+  read(fly_cells(cells, options), "", material.missions);
+
+  // apart from the others, since those of the same content keep no images
+  const RunCellsOptions with_images{.folder = bench_folder(options) / "with-images",
+                                    .jobs = options.jobs,
+                                    .threads = options.threads,
+                                    .retry_failed = true,
+                                    .quiet = options.quiet,
+                                    .run_arguments = {"--frames"}};
   std::erase_if(cells, [&](const Cell& cell) {
     return !cell.scenario.starts_with("lab_") || cell.seed != request.seeds.front();
   });
-  return cells;
+  for (const CellOutcome& outcome : run_cells(cells, with_images)) {
+    if (outcome.status != CellStatus::missing) continue;
+    throw CommandFailed("interrupted; the same command goes on");
+  }
+  read(read_cells(cells, with_images.folder), "with images: ", material.with_images);
+  return material;
 }
 
 std::vector<const PaperMission*> missions_of(const PaperMaterial& material,

@@ -1,13 +1,12 @@
 // The missions of the paper's evaluation: which they are, and what is read of them.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/run/run_record.hpp"
-#include "tools/sweep/sweep.hpp"
+#include "tools/sweep/bench_runs.hpp"
 
 namespace gnbv {
 
@@ -23,9 +22,6 @@ struct PaperRequest {
 /// takes on average soon stands. Throws BadInput as cells_of().
 std::vector<Cell> paper_cells(const PaperRequest& request);
 
-/// Those whose images texture the reconstructions (Figs 15 and 18): the labs with the first seed.
-std::vector<Cell> pictured_cells(const PaperRequest& request);
-
 /// A mission that came to an end.
 struct PaperMission {
   std::string scenario;
@@ -36,10 +32,15 @@ struct PaperMission {
 
 struct PaperMaterial {
   PaperRequest request;
-  std::vector<PaperMission> missions;     // scenario by scenario, row by row, seed by seed
-  std::vector<PaperMission> with_images;  // of pictured_cells()
-  std::vector<std::string> notes;         // what is missing of it, and why
+  std::vector<PaperMission> missions = {};
+  /// Of the labs with the first seed; their images texture the reconstructions (Figs 15 and 18).
+  std::vector<PaperMission> with_images = {};
+  std::vector<std::string> notes = {};  // what is missing of it, and why
+  bool has_failures = false;
 };
+
+/// Flies what is missing and reads all. Throws as fly_cells().
+PaperMaterial fly_paper(const PaperRequest& request, const BenchOptions& options);
 
 /// The missions of a row, by seed.
 std::vector<const PaperMission*> missions_of(const PaperMaterial& material,

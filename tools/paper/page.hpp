@@ -1,42 +1,23 @@
-// The page that shows the paper's evaluation beside ours, and the folder it stands in.
+// The paper's evaluation as one document, and the folder of the page that is made of it.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "bench/compare/text_table.hpp"
-#include "tools/paper/comparisons.hpp"
 #include "tools/paper/figures.hpp"
 
 namespace gnbv {
 
-/// All that the page says of a table.
-struct ShownTable {
-  const PaperTable* paper = nullptr;
-  std::vector<ComparedRow> rows;
-  std::vector<ComparedPair> pairs;
-  TextTable whole;  // as `gnbv table` prints it: beside the page as Markdown and CSV
-};
+/// The page is laid out in Python. Throws BadInput with the line that installs what that takes,
+/// where it is missing.
+void need_page_python();
 
-struct PaperPage {
-  std::string command;  // that makes it again
-  std::string version;
-  std::size_t seeds = 0;
-  std::vector<ShownTable> tables;
-  std::vector<CheckedClaim> claims;
-  std::vector<DrawnFigure> figures;
-  std::vector<std::string> notes;
-};
+/// Writes FOLDER/paper.json, the page FOLDER/index.html, and below FOLDER/tables and FOLDER/figures
+/// what it links to. `command` makes it again. Throws BadInput as need_page_python().
+void write_page(const PaperMaterial& material, const std::string& command,
+                const std::filesystem::path& folder, int threads, const FigureProgress& progress);
 
-/// What the missions say.
-std::vector<ShownTable> shown_tables(const PaperMaterial& material);
-
-/// The page. It holds its pictures, and links to the files of FOLDER that they are of; it forbids
-/// itself any network. Throws BadInput naming a picture that cannot be read.
-std::string page_html(const PaperPage& page, const std::filesystem::path& folder);
-
-/// Writes FOLDER/tables/SCENARIO.md and .csv of each table and FOLDER/index.html, each by rename.
-void write_page(const PaperPage& page, const std::filesystem::path& folder);
+/// The JSON Schema of paper.json.
+std::string paper_schema();
 
 }  // namespace gnbv

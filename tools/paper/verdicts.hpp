@@ -1,7 +1,7 @@
 // What agrees with the paper and what does not, as pure functions of numbers.
 #pragma once
 
-#include <cstddef>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,53 +10,46 @@
 
 namespace gnbv {
 
-/// How a mean of ours stands to a number that the paper prints.
-enum class Agreement {
+enum class PaperVerdict {
+  // how a mean of ours stands to a number that the paper prints
   agrees,     // the paper's number lies in our 95 % interval, and that is narrow enough to tell
   close,      // not so, but the two differ by less than matters
   undecided,  // in our interval, which is so wide that it would hold much else
   differs,
-  cut  // differs, but a limit of ours ended it before it had as many views as the paper's
-};
-
-/// What matters of a difference, and what an interval has to be narrower than to tell anything; in
-/// the unit of the numbers.
-struct AgreementScale {
-  double close = 0.0;
-  double wide = 0.0;
-};
-
-/// Coverage in percent: 2 and 10 points.
-constexpr AgreementScale kCoverageScale = {2.0, 10.0};
-
-/// Amounts: 5 and 20 % of what the paper prints.
-AgreementScale scale_of_amount(double printed);
-
-/// One run has no interval: it is close or it differs.
-Agreement agreement(const MeanEstimate& ours, double printed, const AgreementScale& scale);
-
-/// Whether two planners stand to each other as in the paper.
-enum class PairOrder {
-  same,       // our 95 % interval of the paired difference excludes 0 on the paper's side
-  reversed,   // on the other side
-  undecided,  // it holds 0, or there are fewer than two pairs
-  tied        // the paper prints the same number for both
-};
-
-/// `printed` is the paper's difference, `ours` the differences over the seeds that both flew.
-PairOrder pair_order(double printed, std::span<const double> ours);
-
-/// What becomes of a sentence of the paper.
-enum class ClaimVerdict {
+  cut,  // it differs, or cannot be told, but a limit of ours ended missions before the paper's
+  // whether two planners stand to each other as in the paper, or else it is undecided
+  same,      // our 95 % interval of the paired difference excludes 0 on the paper's side
+  reversed,  // on the other side
+  tied,      // the paper prints the same number for both
+  // what becomes of a sentence of the paper
   holds,
   partly,
-  fails,
-  cut  // a limit of ours ended every case before it could be told
+  fails
 };
+NLOHMANN_JSON_SERIALIZE_ENUM(PaperVerdict, {{PaperVerdict::agrees, "agrees"},
+                                            {PaperVerdict::close, "close"},
+                                            {PaperVerdict::undecided, "undecided"},
+                                            {PaperVerdict::differs, "differs"},
+                                            {PaperVerdict::cut, "cut short"},
+                                            {PaperVerdict::same, "same"},
+                                            {PaperVerdict::reversed, "reversed"},
+                                            {PaperVerdict::tied, "tied in the paper"},
+                                            {PaperVerdict::holds, "holds"},
+                                            {PaperVerdict::partly, "partly"},
+                                            {PaperVerdict::fails, "does not hold"}})
+
+/// Coverage (%) is close within 2 points, and an interval tells up to a half width of 10; of other
+/// amounts it is 5 and 20 % of what the paper prints. One run has no interval: it is close or it
+/// differs.
+PaperVerdict agreement(const MeanEstimate& ours, double printed, bool is_coverage);
+
+/// `printed` is the paper's difference, `ours` the differences over the seeds that both flew. With
+/// fewer than two of them nothing is decided.
+PaperVerdict order_of_pair(double printed, std::span<const double> ours);
 
 /// Of a sentence that says "always": in at least 95 % of the cases, at least half of them, fewer.
 /// Requires a share in [0, 1].
-ClaimVerdict claim_of_share(double share);
+PaperVerdict claim_of_share(double share);
 /// That rule in words, of cases such as "views".
 std::string rule_of_share(std::string_view cases);
 
@@ -66,13 +59,8 @@ double rank_trend(std::span<const double> values);
 
 /// Of a sentence that says a series rises (`sign` 1) or falls (-1): rank_trend() of every run at
 /// least 0.8 that way, above 0, or not. Requires a trend.
-ClaimVerdict claim_of_trends(std::span<const double> trends, int sign);
+PaperVerdict claim_of_trends(std::span<const double> trends, int sign);
 /// That rule in words.
 std::string rule_of_trends(int sign);
-
-// Words for a page.
-std::string_view name_of(Agreement agreement);
-std::string_view name_of(PairOrder order);
-std::string_view name_of(ClaimVerdict verdict);
 
 }  // namespace gnbv
