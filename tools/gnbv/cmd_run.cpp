@@ -128,7 +128,7 @@ void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
 
 void run(const RunOptions& options) {
   std::vector<std::string> unused_notes;
-  const Scenario scenario = resolve_scenario(options.scenario, unused_notes);
+  const Scenario scenario = resolve_scenario(options.scenario, &unused_notes);
   need_route(options, scenario);
   if (has_ended(options, scenario)) return;
   say_doubts(scenario, unused_notes);

@@ -1,11 +1,10 @@
 #include "tools/paper/missions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
+#include "tools/mission/resolve.hpp"
 
 namespace gnbv {
 namespace {
@@ -13,14 +12,11 @@ namespace {
 Sweep sweep_of(const PaperTable& table, const PaperRequest& request) {
   Sweep sweep;
   const std::string name(table.scenario);
-  sweep.scenarios = {{.name = name,
-                      .scenario = name,
-                      .mesh = "",
-                      .bounds_auto = false,
-                      .overrides = request.overrides}};
+  sweep.scenarios = {
+      {.name = name, .scenario = name, .overrides = overrides_of(request.overrides)}};
   for (const PaperRow& row : table.rows) {
-    sweep.methods.push_back(
-        {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
+    const std::string utility(row.utility);
+    sweep.methods.push_back({utility, {{"planner.utility.name=" + utility}}});
   }
   sweep.seeds = request.seeds;
   return sweep;

@@ -1,10 +1,11 @@
 // Runs the cells of a sweep that are not done yet, each in a process of its own.
 #pragma once
 
+#include <array>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/sweep/sweep.hpp"
@@ -12,17 +13,19 @@
 namespace gnbv {
 
 struct RunCellsOptions {
-  std::filesystem::path folder;  // of the sweep; FOLDER/cells/ID/ are the run directories
-  int jobs = 1;                  // processes at a time
-  int threads = 0;               // of each; 0 shares the machine's among the jobs
-  bool retry_failed = false;     // failed cells are run again
-  bool wait_for_locked = true;   // cells that another process runs: wait for them, or leave them
+  std::filesystem::path folder{};  // of the sweep; FOLDER/cells/ID/ are the run directories
+  int jobs = 1;                    // processes at a time
+  int threads = 0;                 // of each; 0 shares the machine's among the jobs
+  bool retry_failed = false;       // failed cells are run again
+  bool wait_for_locked = true;     // cells that another process runs: wait for them, or leave them
   bool quiet = false;
   std::filesystem::path program{};           // that flies them; empty: this one
   std::vector<std::string> run_arguments{};  // of `gnbv run` beside its own, such as --frames
 };
 
 enum class CellStatus { done, failed, locked, missing };
+constexpr std::array<std::string_view, 4> kCellStatusNames = {"done", "failed", "running",
+                                                              "missing"};
 
 struct CellOutcome {
   CellStatus status = CellStatus::missing;
