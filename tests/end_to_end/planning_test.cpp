@@ -14,7 +14,7 @@
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/mission/belief_log.hpp"
+#include "tools/mission/decision_log.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 
 namespace gnbv {
@@ -147,7 +147,7 @@ struct Believed {
                                       model.rays_at(view.gimbal_pitch_rad), view, marks));
       asked_fvs.push_back(plan.candidates.at(plan.chosen.at(0)).cluster >= 0);
     };
-    BeliefLog log(scenario, folder.path(), 0);
+    DecisionLog log(scenario, folder.path(), 0);
     const Flown flown(scenario, {.observers = {&watch, &log}});
     log.finish();
     sha256 = result_sha256(flown.result);

@@ -13,7 +13,6 @@
 #include "tests/bench/shapes.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/execute.hpp"
 
 namespace gnbv {

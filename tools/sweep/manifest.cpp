@@ -95,8 +95,8 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
                   "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
                   GNBV_VERSION, flying_source_id(),
-                  one_line(fs::absolute(yaml).lexically_normal().string()), one_line(read_file(yaml)),
-                  by_line(items)));
+                  one_line(fs::absolute(yaml).lexically_normal().string()),
+                  one_line(read_file(yaml)), by_line(items)));
 }
 
 std::optional<Manifest> read_manifest(const fs::path& folder) {

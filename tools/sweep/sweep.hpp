@@ -30,7 +30,8 @@ struct Sweep {
   std::vector<SweepScenario> scenarios = {};
   std::vector<SweepMethod> methods = {};  // of different names
   std::vector<std::uint64_t> seeds = {};
-  std::filesystem::path folder = {};  // where relative paths in overrides begin; "": the current one
+  std::filesystem::path folder =
+      {};  // where relative paths in overrides begin; "": the current one
 };
 
 /// One mission of it.
