@@ -25,7 +25,7 @@
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

@@ -16,7 +16,7 @@
 #include "tools/run/run_claim.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

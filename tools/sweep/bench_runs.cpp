@@ -16,7 +16,6 @@
 #include "tools/run/file_names.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
-#include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {

@@ -9,7 +9,7 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/sweep/manifest.hpp"
-#include "tools/terminal/command_failed.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {

@@ -7,10 +7,9 @@
 #include <set>
 
 #include "scenarios/document.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/sweep/cell_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -28,13 +27,7 @@ class SweepFile : public testing::Test {
 
   /// What reading the file or resolving its cells complains about, with short paths.
   std::string complaint(const std::string& text) {
-    std::string message;
-    try {
-      cells_of(read(text));
-      return "";
-    } catch (const BadInput& error) {
-      message = error.what();
-    }
+    std::string message = test::fault_of([&] { cells_of(read(text)); });
     const std::string folder = temp_.path().string() + '/';
     for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder))
       message.erase(at, folder.size());
