@@ -60,24 +60,18 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
   return model;
 }
 
-void fill_colmap(const Export& e, const fs::path& folder) {
+void fill_sparse(const Export& e, const fs::path& folder) {
   const FrameRecord frames = read_frames(e.record.folder);
-  write_colmap(frames, sparse_model(e, frames), folder);
+  const SparseModel model = sparse_model(e, frames);
+  if (e.options.format == "colmap") return write_colmap(frames, model, folder);
+  write_nerfstudio(frames, model, folder);
 }
-
-void fill_nerfstudio(const Export& e, const fs::path& folder) {
-  const FrameRecord frames = read_frames(e.record.folder);
-  write_nerfstudio(frames, sparse_model(e, frames), folder);
-}
-
-void note(const std::string& sentence) { say(sentence); }
 
 /// Says so, with the command that keeps them, when there are none.
 std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
   if (has_frames(record.folder)) return read_frames(record.folder);
-  note(fmt::format("{}: no frames were kept, so that no images are written; {} keeps them",
-                   (record.folder / kFramesFolder).string(),
-                   command_to_fly_again(record.folder, "--frames")));
+  say("{}: no frames were kept, so that no images are written; {} keeps them",
+      (record.folder / kFramesFolder).string(), command_to_fly_again(record.folder, "--frames"));
   return std::nullopt;
 }
 
@@ -89,7 +83,7 @@ std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
     return read_run_cloud(record);
   } catch (const BadInput& error) {
     if (is_there) throw;
-    note(error.what());
+    say(std::string_view(error.what()));
     return std::nullopt;
   }
 }
@@ -105,9 +99,8 @@ void fill_plain(const Export& e, const fs::path& folder) {
   parts.cloud = cloud_if_there(e.record);
   const RunFiles files(e.record.folder);
   if (!files.find(kMapOddsFile)) {
-    note(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
-                     (e.record.folder / kMapOddsFile).string(),
-                     command_to_fly_again(e.record.folder)));
+    say("{}: is missing, so that no voxels are written; {} makes one",
+        (e.record.folder / kMapOddsFile).string(), command_to_fly_again(e.record.folder));
   }
   if (parts.frames && parts.cloud) {
     parts.colours = colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.threads, e.progress);
@@ -128,7 +121,7 @@ void note_changed_inputs(const RunRecord& record) {
   try {
     need_same_inputs(record.folder, inputs, "what is written is of the one that it flew around");
   } catch (const BadInput& error) {
-    note(error.what());
+    say(std::string_view(error.what()));
   }
 }
 
@@ -137,7 +130,7 @@ std::optional<TriangleMesh> structure_if_there(const RunRecord& record) {
     std::vector<std::string> warnings;
     return load_structure(record.scenario, warnings);
   } catch (const BadInput& error) {
-    note(error.what());
+    say(std::string_view(error.what()));
     return std::nullopt;
   }
 }
@@ -152,9 +145,9 @@ void fill_timeline(const Export& e, const fs::path& folder) {
 }
 
 using Fill = void (*)(const Export&, const fs::path&);
-const std::map<std::string, Fill> kFills = {
-    {"colmap", fill_colmap}, {"mcap", fill_timeline},  {"nerfstudio", fill_nerfstudio},
-    {"plain", fill_plain},   {"rerun", fill_timeline}, {"tum", fill_tum}};
+const std::map<std::string, Fill> kFills = {{"colmap", fill_sparse},     {"mcap", fill_timeline},
+                                            {"nerfstudio", fill_sparse}, {"plain", fill_plain},
+                                            {"rerun", fill_timeline},    {"tum", fill_tum}};
 
 std::vector<std::string> format_names() {
   std::vector<std::string> names;
@@ -174,7 +167,7 @@ void export_run(const ExportOptions& options) {
                  [&](double share) { bar.show(share, "frames"); }};
   write_export_folder(record, options.format, folder,
                       [&](const fs::path& part) { kFills.at(options.format)(e, part); });
-  for (const std::string& missing : record.missing) note(missing);
+  for (const std::string& missing : record.missing) say(missing);
   note_changed_inputs(record);
   fmt::print("{}\n", folder.string());
 }

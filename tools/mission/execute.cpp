@@ -16,7 +16,6 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_child.hpp"
 #include "tools/mission/view_pipe.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"

@@ -7,7 +7,7 @@
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_child.hpp"
+#include "tools/mission/user_planner.hpp"
 
 namespace gnbv {
 namespace {

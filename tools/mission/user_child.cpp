@@ -1,5 +1,3 @@
-#include "tools/mission/user_child.hpp"
-
 #include <bit>
 #include <cstring>
 #include <functional>
@@ -11,6 +9,7 @@
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/belief_questions.hpp"
+#include "tools/mission/user_planner.hpp"
 
 namespace gnbv {
 namespace {

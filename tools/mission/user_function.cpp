@@ -154,4 +154,12 @@ void tell_apart(std::vector<NamedMethod>& methods) {
   }
 }
 
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& texts,
+                                       const std::string& option) {
+  std::vector<NamedMethod> methods;
+  for (const std::string& text : texts) methods.push_back(named_method(text, option));
+  tell_apart(methods);
+  return methods;
+}
+
 }  // namespace gnbv

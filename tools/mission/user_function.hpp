@@ -26,4 +26,8 @@ NamedMethod named_method(const std::string& text, const std::string& option = "-
 /// Gives longer names to those that share one.
 void tell_apart(std::vector<NamedMethod>& methods);
 
+/// Each of them, named as shortly as tells them apart.
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& texts,
+                                       const std::string& option);
+
 }  // namespace gnbv

@@ -1,11 +1,10 @@
-#include "tools/sweep/method_options.hpp"
-
 #include <fmt/format.h>
 
 #include <set>
 #include <string_view>
 
 #include "sim/core/error.hpp"
+#include "tools/sweep/compare_missions.hpp"
 
 namespace gnbv {
 namespace {
@@ -109,19 +108,12 @@ class Methods {
 
 }  // namespace
 
-std::vector<SweepMethod> methods_of_utilities(const std::vector<std::string>& utilities) {
-  std::vector<SweepMethod> methods;
-  for (const std::string& text : utilities) methods.push_back(named_method(text, "--utilities"));
-  tell_apart(methods);
-  return methods;
-}
-
 std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   Methods methods;
   const bool only_variants = options.utilities.empty() && options.presets.empty() &&
                              options.varies.empty() && !options.variants.empty();
   if (only_variants) methods.add({.name = "default"});
-  for (SweepMethod& method : methods_of_utilities(options.utilities)) {
+  for (SweepMethod& method : named_methods(options.utilities, "--utilities")) {
     methods.add(std::move(method));
   }
   for (const std::string& preset : options.presets) {

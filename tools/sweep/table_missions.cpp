@@ -13,7 +13,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/sweep/method_options.hpp"
 
 namespace gnbv {
 namespace {
@@ -66,7 +65,7 @@ Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scena
     if (!is_limited) sweep.methods.back().overrides.push_back({kToTheEnd});
   };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
-  for (SweepMethod& method : methods_of_utilities(request.utilities)) {
+  for (SweepMethod& method : named_methods(request.utilities, "--utilities")) {
     sweep.methods.push_back(std::move(method));
   }
   for (const auto tour : planners_that(&PlannerTraits::makes_tours)) add_row_to_the_end(tour);

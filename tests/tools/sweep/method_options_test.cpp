@@ -1,6 +1,5 @@
-#include "tools/sweep/method_options.hpp"
-
 #include "tests/support/fault.hpp"
+#include "tools/sweep/compare_missions.hpp"
 
 namespace gnbv {
 namespace {

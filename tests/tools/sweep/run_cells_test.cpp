@@ -13,7 +13,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/sweep/cell_files.hpp"
 
 namespace gnbv {
 namespace {
