@@ -7,18 +7,11 @@
 #include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/user_function.hpp"
 #include "tools/run/user_views.hpp"
 
 namespace gnbv {
 
 namespace fs = std::filesystem;
-
-std::vector<Override> overrides_of(const std::vector<std::string>& sets) {
-  std::vector<Override> overrides;
-  for (const std::string& set : sets) overrides.push_back({set});
-  return overrides;
-}
 
 Override views_of_file(const std::string& file) {
   return {views_override(read_user_views(file)), "--views " + file};

@@ -8,6 +8,7 @@
 #include "scenarios/load.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/user_function.hpp"
 
 namespace gnbv {
 
@@ -22,9 +23,6 @@ struct ScenarioOptions {
   std::string views;                   // a file of body poses to fly; "" keeps the scenario's
   bool bounds_auto = false;            // lay the workspace and the start around the structure
 };
-
-/// As `--set` gives them.
-std::vector<Override> overrides_of(const std::vector<std::string>& sets);
 
 /// `--views FILE`: the override that has the file's views flown.
 Override views_of_file(const std::string& file);

@@ -114,6 +114,12 @@ Definition chosen(const Named& named, const std::string& source) {
 
 }  // namespace
 
+std::vector<Override> overrides_of(const std::vector<std::string>& sets) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) overrides.push_back({set});
+  return overrides;
+}
+
 NamedMethod named_method(const std::string& text, const std::string& option,
                          const fs::path& folder) {
   const std::string given_by = option + " " + text;

@@ -9,6 +9,9 @@
 
 namespace gnbv {
 
+/// KEY=VALUE each, as `--set` gives them.
+std::vector<Override> overrides_of(const std::vector<std::string>& sets);
+
 /// A utility, a planner, or other settings, by a name of its own.
 struct NamedMethod {
   std::string name = {};  // the NAME, the FUNCTION, or the utility's own

@@ -4,7 +4,6 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/resolve.hpp"
 
 namespace gnbv {
 namespace {
