@@ -55,26 +55,18 @@ std::vector<SweepMethod> methods_with_views(const CompareRequest& request) {
   return methods;
 }
 
-std::vector<Cell> cells_to_fly(const CompareRequest& request, int seeds) {
-  Sweep sweep{.scenarios = scenarios_of(request), .methods = methods_with_views(request)};
-  ScenarioOptions first = request.structure;  // as `run` reads it, with its faults
-  first.scenario = request.scenarios.front();
-  sweep.seeds = seeds_from(resolve_scenario(first).seed, seeds);
-  return cells_of(sweep);
+/// Each once, in their order.
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all, std::string Named::*name) {
+  std::vector<std::string> names;
+  for (const Named& one : all) {
+    if (std::find(names.begin(), names.end(), one.*name) == names.end()) names.push_back(one.*name);
+  }
+  return names;
 }
 
 /// What the others are tested against.
-std::string baseline_of(const CompareRequest& request, const std::vector<Cell>& cells) {
-  std::vector<std::string> methods;
-  for (const Cell& cell : cells) {
-    if (std::find(methods.begin(), methods.end(), cell.method) == methods.end()) {
-      methods.push_back(cell.method);
-    }
-  }
-  if (methods.size() < 2) {
-    throw BadInput(
-        fmt::format("{}: the sweep has one method: nothing to compare", request.from.string()));
-  }
+std::string baseline_of(const CompareRequest& request, const std::vector<std::string>& methods) {
   if (request.baseline.empty()) return methods.front();
   if (std::find(methods.begin(), methods.end(), request.baseline) != methods.end()) {
     return request.baseline;
@@ -83,13 +75,28 @@ std::string baseline_of(const CompareRequest& request, const std::vector<Cell>& 
                              request.baseline, fmt::join(methods, ", ")));
 }
 
+std::vector<Cell> cells_to_fly(const CompareRequest& request, int seeds) {
+  Sweep sweep{.scenarios = scenarios_of(request), .methods = methods_with_views(request)};
+  baseline_of(request, names_of(sweep.methods,
+                                &SweepMethod::name));  // is told before the faults of the methods
+  ScenarioOptions first = request.structure;           // as `run` reads it, with its faults
+  first.scenario = request.scenarios.front();
+  sweep.seeds = seeds_from(resolve_scenario(first).seed, seeds);
+  return cells_of(sweep);
+}
+
 }  // namespace
 
 ComparedMissions compare_missions(const CompareRequest& request, const BenchOptions& options) {
   const bool flies = request.from.empty();
   const std::vector<Cell> cells =
       flies ? cells_to_fly(request, options.seed_count) : cells_of_manifest(request.from);
-  const std::string baseline = baseline_of(request, cells);
+  const std::vector<std::string> methods = names_of(cells, &Cell::method);
+  if (methods.size() < 2) {
+    throw BadInput(
+        fmt::format("{}: the sweep has one method: nothing to compare", request.from.string()));
+  }
+  const std::string baseline = baseline_of(request, methods);
   ComparedMissions all{.flown =
                            flies ? fly_cells(cells, options) : read_cells(cells, request.from)};
   const BenchRuns& flown = all.flown;
