@@ -14,7 +14,7 @@
 #include "tests/support/flown.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/mission/belief_log.hpp"
+#include "tools/mission/decision_log.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 
 namespace gnbv {
@@ -147,7 +147,7 @@ struct Believed {
                                       model.rays_at(view.gimbal_pitch_rad), view, marks));
       asked_fvs.push_back(plan.candidates.at(plan.chosen.at(0)).cluster >= 0);
     };
-    BeliefLog log(scenario, folder.path(), 0);
+    DecisionLog log(scenario, folder.path(), 0);
     const Flown flown(scenario, {.observers = {&watch, &log}});
     log.finish();
     sha256 = result_sha256(flown.result);
@@ -164,14 +164,16 @@ TEST(BeliefLog, HasTheVoxelsThatThePlannerCounted) {
   EXPECT_GT(voxel_count(believed.views.at(1).unknown), 0U);
 }
 
-TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
-  const Scenario scenario = smoke();
-  const PlannerModel model = planner_model(scenario);
+TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirstAndTheClusterThatWasLookedAt) {
+  const PlannerModel model = planner_model(smoke());
   Belief belief(model);
   const std::size_t count = belief.grid.geometry().voxel_count();
   for (VoxelIndex v = 0; v < count; v += 3) belief.grid.predict(v);
   Plan plan;
   plan.views = {{.view = {Vec3(0, 0, 2), 0.5}}};
+  plan.candidates = {{.view = plan.next().view, .sampler = Sampler::fvs, .cluster = 1}};
+  plan.chosen = {0};
+  plan.clusters = {{.voxels = {3, 4}}, {.voxels = {7, 9}}};  // in whatever order they were tried
   FrontierMarks marks(count);
   const BelievedVoxels voxels = believed_voxels(model, {}, belief, plan, marks);
   VisitMarks visits(count);
@@ -180,20 +182,7 @@ TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirst) {
   EXPECT_EQ(voxel_count(voxels.predicted), counted.predicted_voxels);
   EXPECT_EQ(voxel_count(voxels.unknown), counted.unknown_voxels);
   EXPECT_GT(counted.predicted_voxels, 0U);
-}
-
-TEST(BeliefLog, HasTheClusterThatTheDecisionSaysItLookedAt) {
-  const Scenario scenario = smoke();
-  const PlannerModel model = planner_model(scenario);
-  const Belief belief(model);
-  Plan plan;
-  plan.views = {{.view = {Vec3(0, 0, 2), 0.5}}};
-  plan.candidates = {{.view = plan.next().view, .sampler = Sampler::fvs, .cluster = 1}};
-  plan.chosen = {0};
-  plan.clusters = {{.voxels = {3, 4}}, {.voxels = {7, 9}}};  // in whatever order they were tried
-  FrontierMarks marks(belief.grid.geometry().voxel_count());
-  EXPECT_EQ(believed_voxels(model, {}, belief, plan, marks).looked_at,
-            runs_of(plan.clusters[1].voxels));
+  EXPECT_EQ(voxels.looked_at, runs_of(plan.clusters[1].voxels));
 }
 
 TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {

@@ -23,17 +23,6 @@ const Flown& smoke_flight() {
   return flight;
 }
 
-const MissionScore& smoke_score() {
-  static const MissionScore score = [] {
-    const Flown& f = smoke_flight();
-    const SurfaceReference reference =
-        make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
-    return score_cloud(reference, f.scene, scored_cloud(f.result),
-                       f.scenario.planner.map.resolution_m, 2);
-  }();
-  return score;
-}
-
 TEST(SmokeMission, EndsAsStatedAndTouchesNothing) {
   const MissionResult& result = smoke_flight().result;
   EXPECT_EQ(result.termination, Termination::max_iterations);
@@ -54,7 +43,11 @@ TEST(SmokeMission, TheCloudOnlyGrows) {
 }
 
 TEST(SmokeMission, CoversMostOfTheStructure) {
-  const MissionScore& score = smoke_score();
+  const Flown& f = smoke_flight();
+  const SurfaceReference reference =
+      make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
+  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.result),
+                                         f.scenario.planner.map.resolution_m, 2);
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     EXPECT_GE(score.final[size], score.profile[size]);
   }
@@ -117,10 +110,8 @@ TEST(ResumedMission, LosesNoRecordedViewWhenItIsStoppedEarly) {
 
 TEST(ResumedMission, FliesWhatWasRecordedAndDoesNotPlanItAgain) {
   // the second view is turned by hand: planning anew would not choose it
-  std::vector<Decision> recorded;
-  for (std::size_t i = 0; i < 2; ++i) {
-    recorded.push_back(smoke_flight().result.views[i].decision);
-  }
+  const std::vector<ViewRecord>& views = smoke_flight().result.views;
+  std::vector<Decision> recorded = {views[0].decision, views[1].decision};
   recorded[1].view.yaw_rad = wrap_angle_rad(recorded[1].view.yaw_rad + 0.1);
   const Flown flight(smoke({"planner.termination.max_iterations=2"}), {.replay = recorded});
   EXPECT_EQ(flight.result.views[1].decision.view.yaw_rad, recorded[1].view.yaw_rad);

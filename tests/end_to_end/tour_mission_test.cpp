@@ -164,8 +164,7 @@ const std::vector<Decision>& route_of(const std::string& utility) {
   if (!routes.contains(utility)) {
     setenv("GNBV_CACHE", "", 1);
     const Scenario scenario = oracle_smoke(utility);
-    std::vector<std::string> warnings;
-    const World world = load_world(scenario, warnings);
+    const World world = world_of(scenario);
     const RayScene scene(world);
     const OracleAim aim =
         traits_of(scenario.planner).counts_metres ? OracleAim::metres : OracleAim::views;
@@ -175,17 +174,11 @@ const std::vector<Decision>& route_of(const std::string& utility) {
   return routes[utility];
 }
 
-MissionInputs with_route(const std::string& utility) {
-  MissionInputs inputs;
-  inputs.sources.route = route_of(utility);
-  return inputs;
-}
-
 class OracleMission : public testing::TestWithParam<const char*> {};
 
 TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
   const std::string utility = GetParam();
-  const Flown flight(oracle_smoke(utility), with_route(utility));
+  const Flown flight(oracle_smoke(utility), {.sources = {.route = route_of(utility)}});
   EXPECT_EQ(flight.result.termination, Termination::route_flown);
   ASSERT_EQ(flight.result.views.size(), route_of(utility).size() + 1);
   EXPECT_EQ(flight.result.legs_timed_out, 0);
@@ -204,14 +197,9 @@ TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
 
 INSTANTIATE_TEST_SUITE_P(BothAims, OracleMission, testing::Values("oracle_views", "oracle_metres"));
 
-TEST(OracleRoute, WithoutOneTheMissionIsRefused) {
+TEST(OracleRoute, EmptyEndsAfterTheFirstViewAndNoneIsRefused) {
   EXPECT_THROW(Flown(oracle_smoke("oracle_views")), BrokenInvariant);
-}
-
-TEST(OracleRoute, EmptyEndsAfterTheFirstView) {
-  MissionInputs inputs;
-  inputs.sources.route.emplace();
-  const Flown flight(oracle_smoke("oracle_views"), inputs);
+  const Flown flight(oracle_smoke("oracle_views"), {.sources = {.route = std::vector<Decision>()}});
   EXPECT_EQ(flight.result.termination, Termination::route_flown);
   EXPECT_EQ(flight.result.views.size(), 1U);
 }

@@ -4,16 +4,10 @@
 #include <string>
 
 #include "sim/core/error.hpp"
-#include "tools/sweep/read_methods.hpp"
-#include "tools/sweep/sweep.hpp"
+#include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
 namespace {
-
-void check_settings(const Settings& settings) {
-  GNBV_CHECK(settings.overrides.size() == settings.sources.size(), "{} settings of {} places",
-             settings.overrides.size(), settings.sources.size());
-}
 
 void check_sweep(const std::string& text) {
   SweepYaml yaml("fuzz.yaml");
@@ -21,11 +15,11 @@ void check_sweep(const std::string& text) {
   if (!root) return;
   yaml.require_map(*root, "",
                    {"scenarios", "utilities", "presets", "variants", "grid", "set", "seeds"});
-  check_settings(yaml.settings_of(root->find("set"), "set"));
-  if (const YamlNode* const scenarios = root->find("scenarios")) {
-    for (const YamlNode* const one : yaml.items_of(*scenarios, "scenarios")) {
-      yaml.text_of(one, "scenarios", "a name");
-    }
+  for (const Override& set : yaml.settings_of(root->find("set"), "set")) {
+    GNBV_CHECK(!set.source.empty(), "a setting of no place");
+  }
+  for (const YamlNode* const one : yaml.items_of(root->find("scenarios"), "scenarios")) {
+    yaml.text_of(one, "scenarios", "a name");
   }
   const std::vector<SweepMethod> methods = read_methods(*root, "/nowhere", yaml);
   GNBV_CHECK(methods.size() <= kMaxCells, "{} methods", methods.size());

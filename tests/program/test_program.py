@@ -62,7 +62,7 @@ REFUSED = {
     'ceiling aircaft': ['aircaft', 'aircraft'],
     'lint absent.obj': ['absent.obj', 'No such file'],
     'asset aircrft -o out': ['aircrft', "'aircraft'"],
-    'asset random --kind crain -o out': ['--kind crain', "did you mean 'crane'?", 'hull'],
+    'asset random --kind crain -o out': ['--kind', "'crain'", "did you mean 'crane'?", 'hull'],
     'asset smoke --seed 2 -o out.obj': ['smoke', 'asset random'],
     'asset random --seed -1 -o out.obj': ['--seed'],
     'asset smoke -o out': ['out', '.obj, .ply or .glb'],

@@ -14,15 +14,20 @@ inline Scenario smoke(const std::vector<std::string>& overrides = {}) {
   return load_scenario("smoke", overrides);
 }
 
+/// What stands in it, without what its reader had to say.
+inline World world_of(const Scenario& scenario) {
+  std::vector<std::string> warnings;
+  return load_world(scenario, warnings);
+}
+
 struct Flown {
   explicit Flown(const Scenario& flown_scenario, const MissionInputs& inputs = {}, int threads = 2)
       : scenario(flown_scenario),
-        world(load_world(scenario, warnings)),
+        world(world_of(scenario)),
         scene(world),
         result(run_mission(scenario, world, scene, inputs, threads)) {}
 
   Scenario scenario;
-  std::vector<std::string> warnings;
   World world;
   RayScene scene;
   MissionResult result;

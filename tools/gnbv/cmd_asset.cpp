@@ -1,19 +1,17 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "assets/catalog.hpp"
 #include "assets/random/random_structure.hpp"
 #include "scenarios/scenario.hpp"
-#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/gnbv/shared_options.hpp"
 
 namespace gnbv {
 namespace {
@@ -24,40 +22,28 @@ constexpr std::string_view kRandom = "random";
 
 struct AssetOptions {
   std::string name;
-  std::optional<std::string> seed_text;  // of a random one, as it was given
-  std::uint64_t seed = 1;
-  std::string kind;  // of it; empty: the seed chooses
+  std::optional<std::uint64_t> seed;  // of a random one
+  std::string kind;                   // of it; empty: the seed chooses
   fs::path out;
   bool list = false;
   bool json = false;
 };
 
 /// The built-in ones, and random ones.
-std::vector<std::string_view> structure_names() {
-  std::vector<std::string_view> names(kStructureNames.begin(), kStructureNames.end());
-  names.push_back(kRandom);
+std::vector<std::string> structure_names() {
+  std::vector<std::string> names(kStructureNames.begin(), kStructureNames.end());
+  names.emplace_back(kRandom);
   return names;
 }
 
-void check_random_options(const AssetOptions& options) {
-  if (options.name != kRandom && (options.seed_text || !options.kind.empty())) {
+void check(const AssetOptions& options) {
+  if (options.name.empty()) {
+    throw BadInput(
+        fmt::format("asset: NAME is missing; it is one of {}", fmt::join(structure_names(), ", ")));
+  }
+  if (options.name != kRandom && (options.seed || !options.kind.empty())) {
     throw BadInput(fmt::format("{}: --seed and --kind are for `asset random`", options.name));
   }
-  const auto& kinds = kRandomKinds;
-  if (!options.kind.empty() && std::find(kinds.begin(), kinds.end(), options.kind) == kinds.end()) {
-    throw BadInput(fmt::format("--kind {}: no kind of random structure ({}they are: {})",
-                               options.kind, did_you_mean(options.kind, kinds), join(kinds)));
-  }
-}
-
-void check(const AssetOptions& options) {
-  const std::vector<std::string_view> known = structure_names();
-  if (std::find(known.begin(), known.end(), options.name) == known.end()) {
-    throw BadInput(fmt::format("{}: no built-in structure ({}they are: {})",
-                               options.name.empty() ? "asset" : options.name,
-                               did_you_mean(options.name, known), join(known)));
-  }
-  check_random_options(options);
   if (options.out.empty()) {
     throw BadInput("asset: -o FILE is missing; its extension, .obj, .ply or .glb, is the format");
   }
@@ -85,13 +71,12 @@ void print_facts(const AssetOptions& options, const TriangleMesh& mesh) {
         {"materials", mesh.materials.size()},
         {"area_m2", surface_area_m2(mesh)},
         {"bounds_m", {{"min", {lo.x(), lo.y(), lo.z()}}, {"max", {hi.x(), hi.y(), hi.z()}}}}};
-    if (options.name == kRandom) facts.update({{"kind", options.kind}, {"seed", options.seed}});
-    fmt::print("{}\n", facts.dump(2));
-    return;
+    if (options.name == kRandom) facts.update({{"kind", options.kind}, {"seed", *options.seed}});
+    return fmt::print("{}\n", facts.dump(2));
   }
   for (const std::string& file : files) fmt::print("{}\n", file);
   if (options.name == kRandom) {
-    fmt::print("random {}, seed {}\n", options.kind, options.seed);
+    fmt::print("random {}, seed {}\n", options.kind, *options.seed);
   }
   fmt::print("{} vertices, {} faces, {} materials, {:.0f} m2\n", mesh.vertices_m.size(),
              mesh.faces.size(), mesh.materials.size(), surface_area_m2(mesh));
@@ -103,36 +88,22 @@ void print_list(bool json) {
   if (json) {
     const nlohmann::ordered_json all = {{"structures", structure_names()},
                                         {"random_kinds", kRandomKinds}};
-    fmt::print("{}\n", all.dump());
-    return;
+    return fmt::print("{}\n", all.dump());
   }
   for (const std::string_view name : kStructureNames) fmt::print("{}\n", name);
   for (const std::string_view kind : kRandomKinds) fmt::print("{} --kind {}\n", kRandom, kind);
 }
 
-std::uint64_t seed_of(const std::string& text) {
-  std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, seed);
-  if (error != std::errc() || at != end) {
-    throw BadInput(fmt::format("--seed {}: is no whole number from 0 to 2^64 - 1", text));
-  }
-  return seed;
-}
-
 /// Fills in what of a random one was not given.
 TriangleMesh make(AssetOptions& options) {
   if (options.name != kRandom) return make_builtin_structure(options.name);
-  if (options.seed_text) options.seed = seed_of(*options.seed_text);
-  if (options.kind.empty()) options.kind = random_kind(options.seed);
-  return make_random_structure(options.seed, options.kind);
+  options.seed = options.seed.value_or(1);
+  if (options.kind.empty()) options.kind = random_kind(*options.seed);
+  return make_random_structure(*options.seed, options.kind);
 }
 
 void asset(AssetOptions options) {
-  if (options.list) {
-    print_list(options.json);
-    return;
-  }
+  if (options.list) return print_list(options.json);
   check(options);
   const TriangleMesh mesh = make(options);
   write_mesh(mesh, options.out);
@@ -146,15 +117,17 @@ void add_asset_command(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("asset", "write a built-in or a random structure as a mesh file");
   CLI::Option* const name =
-      command->add_option("NAME", options->name, "structure, or `random`; --list names them");
+      command->add_option("NAME", options->name, "structure, or `random`; --list names them")
+          ->check(is_one_of(structure_names()));
   CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
-  CLI::Option* const seed =
-      command->add_option("--seed", options->seed_text, "of `random`: which (1)");
+  CLI::Option* const seed = command->add_option("--seed", options->seed, "of `random`: which (1)");
   CLI::Option* const kind =
-      command->add_option("--kind", options->kind,
-                          "of `random`: hall, tower, ...; --list names them, else by the seed");
+      command
+          ->add_option("--kind", options->kind,
+                       "of `random`: hall, tower, ...; --list names them, else by the seed")
+          ->check(is_one_of({kRandomKinds.begin(), kRandomKinds.end()}));
   command->add_flag("--list", options->list, "print the names of the structures")
       ->excludes(name)
       ->excludes(out)

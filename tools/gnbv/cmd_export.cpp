@@ -65,9 +65,8 @@ void fill_sparse(const Export& e, const fs::path& folder) {
 /// Says so, with the command that keeps them, when there are none.
 std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
   if (has_frames(record.folder)) return read_frames(record.folder);
-  say(fmt::format("{}: no frames were kept, so that no images are written; {} keeps them",
-                  (record.folder / kFramesFolder).string(),
-                  command_to_fly_again(record.folder, "--frames")));
+  say("{}: no frames were kept, so that no images are written; {} keeps them",
+      (record.folder / kFramesFolder).string(), command_to_fly_again(record.folder, "--frames"));
   return std::nullopt;
 }
 
@@ -79,7 +78,7 @@ std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
     return read_run_cloud(record);
   } catch (const BadInput& error) {
     if (is_there) throw;
-    say(error.what());
+    say(std::string_view(error.what()));
     return std::nullopt;
   }
 }
@@ -92,9 +91,8 @@ void fill_plain(const Export& e, const fs::path& folder) {
   ExportParts parts{.frames = frames_if_kept(e.record), .cloud = cloud_if_there(e.record)};
   const RunFiles files(e.record.folder);
   if (!files.find(kMapOddsFile)) {
-    say(fmt::format("{}: is missing, so that no voxels are written; {} makes one",
-                    (e.record.folder / kMapOddsFile).string(),
-                    command_to_fly_again(e.record.folder)));
+    say("{}: is missing, so that no voxels are written; {} makes one",
+        (e.record.folder / kMapOddsFile).string(), command_to_fly_again(e.record.folder));
   }
   if (parts.frames && parts.cloud) {
     parts.colours = colours_of_cloud(e.record, *parts.cloud, *parts.frames, e.threads, e.progress);
@@ -115,7 +113,7 @@ void note_changed_inputs(const RunRecord& record) {
   try {
     need_same_inputs(record.folder, inputs, "what is written is of the one that it flew around");
   } catch (const BadInput& error) {
-    say(error.what());
+    say(std::string_view(error.what()));
   }
 }
 
@@ -124,7 +122,7 @@ std::optional<TriangleMesh> structure_if_there(const RunRecord& record) {
     std::vector<std::string> warnings;
     return load_structure(record.scenario, warnings);
   } catch (const BadInput& error) {
-    say(error.what());
+    say(std::string_view(error.what()));
     return std::nullopt;
   }
 }

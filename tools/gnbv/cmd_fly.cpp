@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,17 +26,7 @@ struct FlyOptions {
   bool json = false;
 };
 
-std::string_view name_of(ServeEnd end) {
-  switch (end) {
-    case ServeEnd::stopped:
-      return "stopped";
-    case ServeEnd::duration:
-      return "duration";
-    case ServeEnd::collision:
-      return "collision";
-  }
-  return "";
-}
+constexpr std::array<std::string_view, 3> kServeEndNames = {"stopped", "duration", "collision"};
 
 nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& vehicle,
                                   const mavlink::Endpoint& endpoint, const ServeResult& result) {
@@ -46,7 +36,7 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& veh
           {"scenario", scenario.name},
           {"preset", scenario.vehicle.preset},
           {"seed", scenario.seed},
-          {"end", name_of(result.end)},
+          {"end", kServeEndNames.at(static_cast<std::size_t>(result.end))},
           {"flight_time_s", static_cast<double>(vehicle.tick()) * kTick_s},
           {"wall_s", result.wall_s},
           {"energy_wh", vehicle.energy_wh()},

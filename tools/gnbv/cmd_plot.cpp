@@ -12,7 +12,7 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/sweep/cell_files.hpp"
+#include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {

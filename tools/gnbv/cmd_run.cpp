@@ -24,7 +24,7 @@
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {
@@ -127,7 +127,7 @@ void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
 
 void run(const RunOptions& options) {
   std::vector<std::string> unused_notes;
-  const Scenario scenario = resolve_scenario(options.scenario, unused_notes);
+  const Scenario scenario = resolve_scenario(options.scenario, &unused_notes);
   need_route(options, scenario);
   if (has_ended(options, scenario)) return;
   say_doubts(scenario, unused_notes);

@@ -11,12 +11,12 @@
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
-#include "tools/mission/score_text.hpp"
+#include "tools/mission/rescore.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/run_claim.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

@@ -13,7 +13,7 @@
 #include "tools/surface/surface.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <memory>
 
 #include "sim/core/error.hpp"
@@ -21,30 +20,16 @@ namespace fs = std::filesystem;
 
 struct SweepOptions {
   fs::path file;
-  fs::path out;
-  int jobs = 1;
-  int threads = 0;
+  RunCellsOptions run;
   std::string index;
   bool list = false;
   bool status = false;
-  bool retry_failed = false;
   bool replace = false;
-  bool quiet = false;
   bool json = false;
   bool slurm = false;
   bool slurm_dry_run = false;
-  int slurm_limit = 0;
-  std::string slurm_args;
+  SlurmOptions array;
 };
-
-RunCellsOptions run_options(const SweepOptions& options) {
-  return {.folder = options.out,
-          .jobs = options.jobs,
-          .threads = options.threads,
-          .retry_failed = options.retry_failed,
-          .wait_for_locked = true,
-          .quiet = options.quiet};
-}
 
 std::string name_of(const Cell& cell) {
   return fmt::format("{} {} seed {}", cell.scenario, cell.method, cell.seed);
@@ -75,49 +60,45 @@ std::pair<std::size_t, std::size_t> parse_index(const std::string& text, std::si
   return {first, last};
 }
 
-int count_of(const std::vector<CellOutcome>& outcomes, CellStatus status) {
-  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(),
-                                        [&](const auto& one) { return one.status == status; }));
+std::size_t count_of(const std::vector<CellOutcome>& outcomes, CellStatus status) {
+  return static_cast<std::size_t>(std::ranges::count(outcomes, status, &CellOutcome::status));
 }
 
-/// The rows of the table: cells by scenario and method, in the order of the sweep.
+/// A row for each scenario and method, in the order of the sweep, and one for all.
 void print_table(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
-  struct Row {
-    std::string name;
-    std::array<int, 4> count{};
-  };
-  std::vector<Row> rows;
+  using Counts = std::array<int, kCellStatusNames.size()>;
+  std::vector<std::pair<std::string, Counts>> rows;
+  Counts all{};
   std::size_t width = 5;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string name = cells[i].scenario + "  " + cells[i].method;
-    if (rows.empty() || rows.back().name != name) rows.push_back({name, {}});
-    rows.back().count.at(static_cast<std::size_t>(outcomes[i].status)) += 1;
+    if (rows.empty() || rows.back().first != name) rows.push_back({name, {}});
+    const auto status = static_cast<std::size_t>(outcomes[i].status);
+    ++rows.back().second.at(status);
+    ++all.at(status);
     width = std::max(width, name.size());
   }
+  rows.push_back({"all", all});
   fmt::print("{:<{}}  {:>6} {:>6} {:>7} {:>7}\n", "", width, "done", "failed", "running",
              "missing");
-  rows.push_back({"all", {}});
-  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) rows.back().count.at(k) += rows[i].count.at(k);
+  for (const auto& [name, count] : rows) {
+    fmt::print("{:<{}}  {:>6} {:>6} {:>7} {:>7}\n", name, width, count[0], count[1], count[2],
+               count[3]);
   }
-  for (const Row& row : rows) {
-    fmt::print("{:<{}}  {:>6} {:>6} {:>7} {:>7}\n", row.name, width, row.count[0], row.count[1],
-               row.count[2], row.count[3]);
-  }
-  constexpr int kNamed = 20;
-  int named = 0;
+  constexpr std::size_t kNamed = 20;
+  std::size_t named = 0;
   for (std::size_t i = 0; i < cells.size() && named < kNamed; ++i) {
     if (outcomes[i].status != CellStatus::failed) continue;
     fmt::print("failed: {} {} {}: {}\n", i, cells[i].id, name_of(cells[i]), outcomes[i].failure);
-    named += 1;
+    ++named;
   }
-  const int more = count_of(outcomes, CellStatus::failed) - named;
+  const std::size_t more = count_of(outcomes, CellStatus::failed) - named;
   if (more > 0) fmt::print("failed: and {} more, cells/*.failed.json\n", more);
 }
 
 void report(const SweepOptions& options, const std::vector<Cell>& cells,
             const std::vector<CellOutcome>& outcomes) {
-  const fs::path results = options.out / "results.csv";
+  const fs::path results = options.run.folder / "results.csv";
   write_file_atomically(results, results_csv(cells, outcomes));
   if (options.json) return fmt::print("{}", cells_json(cells, outcomes));
   print_table(cells, outcomes);
@@ -125,18 +106,18 @@ void report(const SweepOptions& options, const std::vector<Cell>& cells,
 }
 
 void show_status(const SweepOptions& options, const std::vector<Cell>& cells) {
-  if (!fs::is_directory(options.out)) {
+  if (!fs::is_directory(options.run.folder)) {
     throw BadInput(
-        fmt::format("{}: no such folder: nothing was flown there", options.out.string()));
+        fmt::format("{}: no such folder: nothing was flown there", options.run.folder.string()));
   }
   std::vector<CellOutcome> outcomes;
-  for (const Cell& cell : cells) outcomes.push_back(look_up(options.out, cell));
+  for (const Cell& cell : cells) outcomes.push_back(look_up(options.run.folder, cell));
   report(options, cells, outcomes);
 }
 
 void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
-  const int failed = count_of(outcomes, CellStatus::failed);
-  const int missing = count_of(outcomes, CellStatus::missing);
+  const std::size_t failed = count_of(outcomes, CellStatus::failed);
+  const std::size_t missing = count_of(outcomes, CellStatus::missing);
   if (missing > 0) {
     throw CommandFailed(
         fmt::format("interrupted: {} cells are missing; the same command goes on", missing));
@@ -151,21 +132,21 @@ void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
 void run_indexed(const SweepOptions& options, const Sweep& sweep) {
   const auto [first, last] = parse_index(options.index, cell_count(sweep));
   const std::vector<Cell> cells = cells_of(sweep, first, last);
-  auto manifest = read_manifest(options.out);
+  auto manifest = read_manifest(options.run.folder);
   if (!manifest) {
-    write_manifest(options.out, options.file, cells_of(sweep));
-    manifest = read_manifest(options.out);
+    write_manifest(options.run.folder, options.file, cells_of(sweep));
+    manifest = read_manifest(options.run.folder);
   }
   for (std::size_t i = first; i <= last; ++i) {
     if (i < manifest->cells.size() && manifest->cells[i].id == cells[i - first].id) continue;
     throw BadInput(
         fmt::format("{}: cell {} is not the one of {}: the sweep, a file it names or the program "
                     "has changed since; `gnbv sweep` without --index takes the new one",
-                    options.file.string(), i, (options.out / "sweep.json").string()));
+                    options.file.string(), i, (options.run.folder / "sweep.json").string()));
   }
-  RunCellsOptions run = run_options(options);
+  RunCellsOptions run = options.run;
   run.wait_for_locked = false;
-  run.quiet = options.quiet || cells.size() == 1;
+  run.quiet = run.quiet || cells.size() == 1;
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
   if (options.json) fmt::print("{}", cells_json(cells, outcomes));
   for (std::size_t i = 0; i < cells.size() && !options.json; ++i) {
@@ -176,42 +157,41 @@ void run_indexed(const SweepOptions& options, const Sweep& sweep) {
                                  ? "skipped: another process flies it"
                                  : "interrupted";
     fmt::print("{} {} {}: {}: {}\n", first + i, cells[i].id, name_of(cells[i]),
-               gnbv::name_of(one.status), what);
+               kCellStatusNames.at(static_cast<std::size_t>(one.status)), what);
   }
   fail_if_any_failed(outcomes);
 }
 
 void submit_array(const SweepOptions& options, std::size_t cells) {
-  const fs::path script = options.out / "sweep.sbatch";
-  const SlurmOptions slurm = {.program = fs::read_symlink("/proc/self/exe"),
-                              .sweep_file = options.file,
-                              .folder = options.out,
-                              .cells = cells,
-                              .threads = std::max(1, options.threads),
-                              .limit = options.slurm_limit,
-                              .retry_failed = options.retry_failed,
-                              .arguments = options.slurm_args};
-  write_file_atomically(script, batch_script(slurm, max_array_size().value_or(kMaxArraySize)));
+  const fs::path script = options.run.folder / "sweep.sbatch";
+  SlurmOptions array = options.array;
+  array.program = fs::read_symlink("/proc/self/exe");
+  array.sweep_file = options.file;
+  array.folder = options.run.folder;
+  array.cells = cells;
+  array.threads = std::max(1, options.run.threads);
+  array.retry_failed = options.run.retry_failed;
+  write_file_atomically(script, batch_script(array, max_array_size().value_or(kMaxArraySize)));
   fmt::print("{}\n", options.slurm_dry_run ? script.string() : submit(script));
 }
 
 void sweep(const SweepOptions& options) {
-  if (options.out.empty() && !options.list) {
+  if (options.run.folder.empty() && !options.list) {
     throw BadInput("--out: missing: the folder of the sweep");
   }
   if (!(options.slurm || options.slurm_dry_run) &&
-      (options.slurm_limit > 0 || !options.slurm_args.empty())) {
+      (options.array.limit > 0 || !options.array.arguments.empty())) {
     throw BadInput("--slurm-limit, --slurm-args: need --slurm or --slurm-dry-run");
   }
   const Sweep grid = read_sweep(options.file);
   if (!options.index.empty()) return run_indexed(options, grid);
   const std::vector<Cell> cells = cells_of(grid);
   if (options.list) return list(cells, options.json);
-  if (!options.replace) require_folder_of(options.out, options.file);
+  if (!options.replace) require_folder_of(options.run.folder, options.file);
   if (options.status) return show_status(options, cells);
-  write_manifest(options.out, options.file, cells);
+  write_manifest(options.run.folder, options.file, cells);
   if (options.slurm || options.slurm_dry_run) return submit_array(options, cells.size());
-  const std::vector<CellOutcome> outcomes = run_cells(cells, run_options(options));
+  const std::vector<CellOutcome> outcomes = run_cells(cells, options.run);
   report(options, cells, outcomes);
   fail_if_any_failed(outcomes);
 }
@@ -224,49 +204,39 @@ void add_sweep_command(CLI::App& app) {
       app.add_subcommand("sweep", "fly a grid of missions; what is done is not flown again");
   command->add_option("FILE", o->file, "YAML: scenarios, utilities, grid, seeds (README)")
       ->required();
-  command->add_option("--out", o->out, "folder of the sweep; the same one goes on with it");
+  command->add_option("--out", o->run.folder, "folder of the sweep; the same one goes on with it");
   CLI::Option* const jobs =
-      command->add_option("--jobs", o->jobs, "missions at a time, each a process")
+      command->add_option("--jobs", o->run.jobs, "missions at a time, each a process")
           ->check(CLI::Range(1, 1024));
-  command->add_option("--threads", o->threads, "of each mission; 0 = the machine's, shared out")
+  command->add_option("--threads", o->run.threads, "of each mission; 0 = the machine's, shared out")
       ->check(CLI::Range(0, 1024));
   CLI::Option* const index = command->add_option(
       "--index", o->index, "fly only cell K, or K-L, of --list; for schedulers");
-  CLI::Option* const list = command->add_flag("--list", o->list, "print the cells and fly nothing")
-                                ->excludes(index)
-                                ->excludes(jobs);
-  CLI::Option* const status =
-      command->add_flag("--status", o->status, "print what is done and failed; fly nothing")
-          ->excludes(index)
-          ->excludes(list)
-          ->excludes(jobs);
-  command->add_flag("--retry-failed", o->retry_failed, "fly failed cells again, from the start")
-      ->excludes(list)
-      ->excludes(status);
-  command
-      ->add_flag("--replace", o->replace,
-                 "take OUT though it is another sweep file's; its cells stay")
-      ->excludes(index)
-      ->excludes(list)
-      ->excludes(status);
-  add_quiet_option(*command, o->quiet);
+  using Options = std::vector<CLI::Option*>;
+  const auto add_flag = [&](const char* name, bool& flag, const char* meaning,
+                            const Options& excluded) {
+    CLI::Option* const option = command->add_flag(name, flag, meaning);
+    for (CLI::Option* const other : excluded) option->excludes(other);
+    return option;
+  };
+  CLI::Option* const list =
+      add_flag("--list", o->list, "print the cells and fly nothing", {index, jobs});
+  CLI::Option* const status = add_flag(
+      "--status", o->status, "print what is done and failed; fly nothing", {index, list, jobs});
+  add_flag("--retry-failed", o->run.retry_failed, "fly failed cells again, from the start",
+           {list, status});
+  add_flag("--replace", o->replace, "take OUT though it is another sweep file's; its cells stay",
+           {index, list, status});
+  add_quiet_option(*command, o->run.quiet);
   command->add_flag("--json", o->json, "print the cells as JSON instead of a table");
   CLI::Option* const slurm =
-      command->add_flag("--slurm", o->slurm, "write OUT/sweep.sbatch, submit it, print the job id")
-          ->excludes(index)
-          ->excludes(list)
-          ->excludes(status)
-          ->excludes(jobs);
-  command
-      ->add_flag("--slurm-dry-run", o->slurm_dry_run, "write OUT/sweep.sbatch and print its path")
-      ->excludes(index)
-      ->excludes(list)
-      ->excludes(status)
-      ->excludes(jobs)
-      ->excludes(slurm);
-  command->add_option("--slurm-limit", o->slurm_limit, "array tasks at a time; 0 = no limit")
+      add_flag("--slurm", o->slurm, "write OUT/sweep.sbatch, submit it, print the job id",
+               {index, list, status, jobs});
+  add_flag("--slurm-dry-run", o->slurm_dry_run, "write OUT/sweep.sbatch and print its path",
+           {index, list, status, jobs, slurm});
+  command->add_option("--slurm-limit", o->array.limit, "array tasks at a time; 0 = no limit")
       ->check(CLI::Range(0, 1'000'000));
-  command->add_option("--slurm-args", o->slurm_args,
+  command->add_option("--slurm-args", o->array.arguments,
                       "further options of sbatch, such as \"--time=02:00:00 --partition=cpu\"");
   command->callback([o] { sweep(*o); });
 }

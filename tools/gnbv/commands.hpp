@@ -1,7 +1,7 @@
 // The commands of the program: each adds its options to the command line and runs when chosen.
 #pragma once
 
-#include "tools/terminal/command_failed.hpp"  // IWYU pragma: export
+#include "tools/terminal/say.hpp"  // IWYU pragma: export
 
 namespace CLI {
 class App;

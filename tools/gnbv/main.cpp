@@ -19,7 +19,7 @@
 #include "tools/gnbv/help.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/standard_streams.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include "bench/compare/text_table.hpp"
 #include "scenarios/validation_error.hpp"
-#include "tools/terminal/command_failed.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/say.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

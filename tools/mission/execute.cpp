@@ -12,15 +12,11 @@
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/core/text.hpp"
-#include "tools/mission/belief_log.hpp"
-#include "tools/mission/coverage_goal.hpp"
+#include "tools/mission/decision_log.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_child.hpp"
 #include "tools/mission/view_pipe.hpp"
-#include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/frames_folder.hpp"
 #include "tools/run/iterations_csv.hpp"
@@ -84,28 +80,18 @@ Scenario with_views_of_run(const Scenario& asked, const MissionOptions& options)
 }
 
 /// On stderr, and to whoever wants to know.
-class Shown {
- public:
-  Shown(ProgressBar& bar, const MissionOptions& options) : bar_(bar), options_(options) {}
-  void show(double share_done, const std::string& note) {
-    bar_.show(share_done, note);
-    if (options_.on_progress) options_.on_progress(share_done, note);
-  }
-
- private:
-  ProgressBar& bar_;
-  const MissionOptions& options_;
-};
+using Progress = std::function<void(double share_done, const std::string& note)>;
 
 /// The views of who knows the structure; nothing for those who have to find out.
 std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const World& world,
                                                  const RayScene& scene,
-                                                 const SurfaceReference& reference, Shown& progress,
+                                                 const SurfaceReference& reference,
+                                                 const Progress& show_progress,
                                                  const std::function<bool()>& should_stop,
                                                  int threads) {
   const PlannerTraits planner = traits_of(scenario.planner);
   if (!planner.knows_structure) return std::nullopt;
-  progress.show(0.0, "planning on the true structure");
+  show_progress(0.0, "planning on the true structure");
   const OracleAim aim = planner.counts_metres ? OracleAim::metres : OracleAim::views;
   try {
     return plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), aim, threads,
@@ -120,16 +106,16 @@ std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const
 /// Keeps the mission's record while it flies, and says how far it is.
 class RunRecorder final : public MissionObserver {
  public:
-  RunRecorder(const Scenario& scenario, RunDirectory& directory, Shown& progress)
+  RunRecorder(const Scenario& scenario, RunDirectory& directory, const Progress& show_progress)
       : last_(scenario.planner.termination.max_iterations),
         directory_(directory),
-        progress_(progress) {}
-  void on_profile(double share_done) override { progress_.show(0.1 * share_done, "profile"); }
+        show_progress_(show_progress) {}
+  void on_profile(double share_done) override { show_progress_(0.1 * share_done, "profile"); }
   void on_profile_belief(const Belief& belief) override { directory_.write_profile(belief); }
   void on_view(const ViewRecord& view, const Belief&) override {
     directory_.need_as_recorded(view);
     directory_.append(view);
-    progress_.show(0.1 + 0.9 * (view.iteration + 1) / last_,
+    show_progress_(0.1 + 0.9 * (view.iteration + 1) / last_,
                    fmt::format("view {}/{}  {:.0f} m  {} points", view.iteration + 1, last_,
                                view.straight_m, grouped(view.cloud_points)));
   }
@@ -137,7 +123,7 @@ class RunRecorder final : public MissionObserver {
  private:
   int last_;  // view at most
   RunDirectory& directory_;
-  Shown& progress_;
+  const Progress& show_progress_;
 };
 
 /// `--frames`.
@@ -152,18 +138,6 @@ class FramesRecorder final : public MissionObserver {
 
  private:
   FramesFolder folder_;
-};
-
-/// `--candidates`.
-class CandidatesRecorder final : public MissionObserver {
- public:
-  CandidatesRecorder(const fs::path& run, std::size_t first_iteration)
-      : file_(run, first_iteration) {}
-  void on_plan(std::size_t iteration, const Plan& plan) override { file_.write(iteration, plan); }
-  void finish() { file_.finish(); }
-
- private:
-  CandidatesFile file_;
 };
 
 /// The folder of the mission, which nobody else flies into until it is over.
@@ -226,32 +200,33 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   const RunClaim claim = claim_folder(scenario, options);    // an oracle may think for minutes
   ProgressBar bar(fmt::format("{} {}", scenario.name, utility_label(scenario.planner.utility)),
                   options.quiet);
-  Shown progress(bar, options);
-  progress.show(0.0, "finding what there is to see");
+  const Progress show_progress = [&](double share_done, const std::string& note) {
+    bar.show(share_done, note);
+    if (options.on_progress) options.on_progress(share_done, note);
+  };
+  show_progress(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const InterruptGuard interrupt;
   const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
-  auto route = known_route(scenario, world, scene, reference, progress, should_stop, threads);
+  auto route = known_route(scenario, world, scene, reference, show_progress, should_stop, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
   write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
   try {
-    RunRecorder recorder(scenario, directory, progress);
+    RunRecorder recorder(scenario, directory, show_progress);
     MissionInputs inputs = {.observers = {&recorder}};
     inputs.should_stop = should_stop;
     inputs.is_covered = coverage_goal(scenario.benchmark, reference, scene);
     inputs.replay = directory.recorded_decisions();
     inputs.sources.user_scores = user_scores;
     inputs.sources.route = std::move(route);
-    const std::size_t first = directory.recorded().size();
     std::optional<FramesRecorder> frames;
     if (options.frames) {
       inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
     }
-    std::optional<CandidatesRecorder> candidates;
-    std::optional<BeliefLog> beliefs;
+    std::optional<DecisionLog> decisions;
     if (options.candidates) {
-      inputs.observers.push_back(&candidates.emplace(directory.path(), first));
-      inputs.observers.push_back(&beliefs.emplace(scenario, directory.path(), first));
+      inputs.observers.push_back(
+          &decisions.emplace(scenario, directory.path(), directory.recorded().size()));
     }
     std::optional<ViewPipe> pipe;
     if (options.piped_views) {
@@ -265,7 +240,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
     const Stopwatch scoring;
-    progress.show(1.0, "scoring");
+    show_progress(1.0, "scoring");
     ScoredCloud cloud = scored_cloud(result);
     cloud.region_m = scenario.score.region_m;
     MissionScore score =
@@ -274,9 +249,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
                                   cloud, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
-    // before the summary, which says that all is there
-    if (candidates) candidates->finish();
-    if (beliefs) beliefs->finish();
+    if (decisions) decisions->finish();  // before the summary, which says that all is there
     const Scenario flown = pipe      ? pipe->scenario()
                            : planner ? planner->repeatable(result.termination)
                                      : scenario;

@@ -7,7 +7,7 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
-#include "tools/mission/run_ceiling.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/mission/user_planner.hpp"
 #include "tools/run/mission_result.hpp"
 

@@ -1,10 +1,9 @@
-#include "tools/mission/homing.hpp"
-
 #include <algorithm>
 
 #include "planner/motion/paths.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/rotors.hpp"
+#include "tools/mission/mission_state.hpp"
 
 namespace gnbv {
 namespace {

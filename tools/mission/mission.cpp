@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "planner/tour/gains.hpp"
-#include "tools/mission/homing.hpp"
 #include "tools/mission/mission_state.hpp"
 #include "tools/mission/sensing.hpp"
 

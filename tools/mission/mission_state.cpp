@@ -6,9 +6,8 @@
 #include "planner/motion/paths.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
-#include "tools/mission/homing.hpp"
 #include "tools/mission/start_pose.hpp"
-#include "tools/mission/user_child.hpp"
+#include "tools/mission/user_planner.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,9 +1,44 @@
 #include "tools/mission/reference.hpp"
 
-#include "bench/score/surface_reference.hpp"
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bench/limits/ceiling.hpp"
+#include "bench/score/coverage_curve.hpp"
+#include "bench/score/scored_points.hpp"
 #include "sim/core/error.hpp"
+#include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
+namespace {
+
+/// Coverage of a cloud that grows, by the points that the score counts.
+class Meter {
+ public:
+  Meter(const SurfaceReference& reference, const RayScene& scene)
+      : meter_(reference.outside[0], kCoverageSizes_m[0]), scene_(scene) {}
+
+  double share_of(std::span<const Vec3f> cloud_world_m) {
+    GNBV_CHECK(cloud_world_m.size() >= looked_at_, "a cloud shrank from {} to {} points",
+               looked_at_, cloud_world_m.size());
+    const std::span<const Vec3f> fresh_m = cloud_world_m.subspan(looked_at_);
+    const std::vector<std::uint8_t> is_kept = points_of_structure(scene_, fresh_m, 1);
+    for (std::size_t i = 0; i < fresh_m.size(); ++i) {
+      if (is_kept[i] != 0) own_world_m_.push_back(fresh_m[i]);
+    }
+    looked_at_ = cloud_world_m.size();
+    return meter_.share_of(own_world_m_);
+  }
+
+ private:
+  CoverageMeter meter_;
+  const RayScene& scene_;
+  std::vector<Vec3f> own_world_m_;
+  std::size_t looked_at_ = 0;
+};
+
+}  // namespace
 
 ReferenceConfig reference_config(const Scenario& scenario) {
   return {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m};
@@ -23,6 +58,32 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
         structure_name(scenario.structure), floor_z_m, where));
   }
   return reference;
+}
+
+std::optional<double> run_ceiling(const Scenario& scenario, const World& world,
+                                  const RayScene& scene, CeilingFrom from, int threads) {
+  const ViewPose start = start_pose(scenario, scene);
+  const std::optional<Ceiling> ceiling =
+      from == CeilingFrom::search ? find_ceiling(scenario, world, scene, start, threads)
+                                  : known_ceiling(scenario, world, scene, start, threads);
+  if (!ceiling || ceiling->leaf_outside[0] <= 0.0) return std::nullopt;
+  return ceiling->leaf_outside[0];
+}
+
+std::function<double(const Belief&)> coverage_meter(const SurfaceReference& reference,
+                                                    const RayScene& scene) {
+  const auto meter = std::make_shared<Meter>(reference, scene);
+  return [meter](const Belief& belief) { return meter->share_of(belief.cloud.points_world_m()); };
+}
+
+std::function<bool(const Belief&)> coverage_goal(const BenchmarkConfig& benchmark,
+                                                 const SurfaceReference& reference,
+                                                 const RayScene& scene) {
+  const double goal = benchmark.stop_at_coverage;
+  if (goal <= 0.0) return [](const Belief&) { return false; };
+  return [share_of = coverage_meter(reference, scene), goal](const Belief& belief) {
+    return share_of(belief) >= goal;
+  };
 }
 
 }  // namespace gnbv

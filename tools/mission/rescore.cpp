@@ -8,7 +8,6 @@
 #include "sim/core/stopwatch.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/reference.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"

@@ -7,7 +7,7 @@
 
 #include "bench/score/mission_score.hpp"
 #include "scenarios/scenario.hpp"
-#include "tools/mission/run_ceiling.hpp"
+#include "tools/mission/reference.hpp"
 
 namespace gnbv {
 
@@ -40,5 +40,11 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
 /// Scores cloud.ply, profile.ply and iterations.csv by scenario.yaml: bit for bit what the run
 /// itself found. Throws BadInput naming the file that is missing or does not fit the others.
 Scored score_run(const std::filesystem::path& run, const ScoreWish& wish, int threads);
+
+/// What `gnbv score` prints: a table of lines no wider than that (0: as wide as it takes), and a
+/// JSON object. `is_run`: with its profile and curve.
+std::string score_text(const Scored& scored, const std::string& name, bool is_run,
+                       std::size_t width);
+std::string score_json(const Scored& scored, bool is_run);
 
 }  // namespace gnbv

@@ -6,14 +6,16 @@
 
 #include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
-#include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/user_function.hpp"
 #include "tools/run/user_views.hpp"
 
 namespace gnbv {
 
 namespace fs = std::filesystem;
+
+Override views_of_file(const std::string& file) {
+  return {views_override(read_user_views(file)), "--views " + file};
+}
 
 StructureExtent structure_extent(const Scenario& scenario) {
   std::vector<std::string> warnings;  // repeated when the mission loads the structure
@@ -22,37 +24,25 @@ StructureExtent structure_extent(const Scenario& scenario) {
   return extent;
 }
 
-Scenario resolve_scenario(const ScenarioOptions& options) {
-  return resolve_scenario(options, std::vector<Override>{});
-}
-
-Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& unused_notes) {
-  return resolve_scenario(options, {}, structure_extent, &unused_notes);
-}
-
-Scenario resolve_scenario(const ScenarioOptions& options, const std::vector<Override>& overrides,
-                          const std::function<StructureExtent(const Scenario&)>& extent,
-                          std::vector<std::string>* unused_notes) {
+Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>* unused_notes,
+                          const std::vector<Override>& overrides,
+                          const std::function<StructureExtent(const Scenario&)>& extent) {
   std::vector<Override> all;
-  const auto add = [&all](std::string text) { all.push_back({.text = std::move(text)}); };
+  const auto add = [&all](const std::vector<Override>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
     if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
-    add("structure.files=[]");
-    add(fmt::format("structure.file.path={}", yaml_in_quotes(fs::absolute(options.mesh).string())));
+    const std::string path = yaml_in_quotes(fs::absolute(options.mesh).string());
+    add(overrides_of({"structure.files=[]", "structure.file.path=" + path}));
   }
-  if (!options.utility.empty()) {
-    const NamedMethod method = named_method(options.utility);
-    all.insert(all.end(), method.overrides.begin(), method.overrides.end());
-  }
-  if (!options.preset.empty()) add("planner.preset=" + options.preset);
-  if (!options.seed.empty()) add("seed=" + options.seed);
-  if (!options.views.empty()) {
-    all.push_back({.text = views_override(read_user_views(options.views)),
-                   .source = fmt::format("--views {}", options.views)});
-  }
-  for (const std::string& text : options.overrides) add(text);
-  all.insert(all.end(), overrides.begin(), overrides.end());
+  if (!options.utility.empty()) add(named_method(options.utility).overrides);
+  if (!options.preset.empty()) add(overrides_of({"planner.preset=" + options.preset}));
+  if (!options.seed.empty()) add(overrides_of({"seed=" + options.seed}));
+  if (!options.views.empty()) add({views_of_file(options.views)});
+  add(overrides_of(options.overrides));
+  add(overrides);
   Filling bounds{.source = "--bounds auto", .fill = {}};
   if (options.bounds_auto) {
     bounds.fill = [&](Scenario& scenario, const auto& is_given) {

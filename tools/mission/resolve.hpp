@@ -8,6 +8,7 @@
 #include "scenarios/load.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/auto_bounds.hpp"
+#include "tools/mission/user_function.hpp"
 
 namespace gnbv {
 
@@ -23,22 +24,19 @@ struct ScenarioOptions {
   bool bounds_auto = false;            // lay the workspace and the start around the structure
 };
 
+/// `--views FILE`: the override that has the file's views flown.
+Override views_of_file(const std::string& file);
+
 /// Of the scenario's structure; throws BadInput when the structure cannot be had.
 StructureExtent structure_extent(const Scenario& scenario);
 
-/// The scenario with the options applied: --mesh, --utility, --preset, --seed, --views, then --set,
-/// then
-/// --bounds auto, which leaves alone what --set gave.
-Scenario resolve_scenario(const ScenarioOptions& options);
-/// The same; `unused_notes` gets a sentence for each key that was given and has no effect.
-Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::string>& unused_notes);
-
-/// The same for overrides that say where they come from; they are applied after those of the
-/// options. `extent` is asked only for bounds_auto: whoever resolves many scenarios of one
-/// structure can answer from memory.
+/// The scenario with the options applied: --mesh, --utility, --preset, --seed, --views, --set, then
+/// `overrides`, then --bounds auto, which leaves alone what they gave. `unused_notes` (may be null)
+/// gets a sentence for each key that was given and has no effect. `extent` is asked only for
+/// bounds_auto: whoever resolves many scenarios of one structure can answer from memory.
 Scenario resolve_scenario(
-    const ScenarioOptions& options, const std::vector<Override>& overrides,
-    const std::function<StructureExtent(const Scenario&)>& extent = structure_extent,
-    std::vector<std::string>* unused_notes = nullptr);
+    const ScenarioOptions& options, std::vector<std::string>* unused_notes = nullptr,
+    const std::vector<Override>& overrides = {},
+    const std::function<StructureExtent(const Scenario&)>& extent = structure_extent);
 
 }  // namespace gnbv

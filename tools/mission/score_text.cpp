@@ -1,5 +1,3 @@
-#include "tools/mission/score_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
+#include "tools/mission/rescore.hpp"
 #include "tools/run/summary_json.hpp"
 
 namespace gnbv {

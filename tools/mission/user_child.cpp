@@ -1,5 +1,3 @@
-#include "tools/mission/user_child.hpp"
-
 #include <bit>
 #include <cstring>
 #include <functional>
@@ -11,6 +9,7 @@
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/belief_questions.hpp"
+#include "tools/mission/user_planner.hpp"
 
 namespace gnbv {
 namespace {
@@ -37,66 +36,38 @@ std::string bytes_of(std::span<const T> values) {
 template <typename T>
 std::vector<T> values_of(const std::string& bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  std::memcpy(static_cast<void*>(values.data()), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 
-/// x, y, z, yaw, gimbal pitch.
-std::string bytes_of_views(std::span<const ViewPose> views) {
-  std::vector<double> rows;
-  for (const ViewPose& view : views) {
-    const Vec3& p_m = view.p_world_m;
-    rows.insert(rows.end(), {p_m.x(), p_m.y(), p_m.z(), view.yaw_rad, view.gimbal_pitch_rad});
-  }
-  return bytes_of<double>(rows);
-}
-
-std::vector<ViewPose> views_of_bytes(const std::string& bytes) {
-  const std::vector<double> rows = values_of<double>(bytes);
-  std::vector<ViewPose> views;
-  for (std::size_t i = 0; i + 5 <= rows.size(); i += 5) {
-    views.push_back({Vec3(rows[i], rows[i + 1], rows[i + 2]), rows[i + 3], rows[i + 4]});
-  }
-  return views;
-}
+static_assert(sizeof(ViewPose) == 5 * sizeof(double), "a view is a row of x, y, z, yaw, pitch");
 
 /// NumPy's dtype with the fields that are computed; the others are not there, so that nobody takes
 /// their zeros for counts.
-struct Dtype {
-  Json names = Json::array(), formats = Json::array(), offsets = Json::array();
-
-  void add(std::string_view name, std::string_view format, std::size_t offset) {
-    names.push_back(name);
-    formats.push_back(format);
-    offsets.push_back(offset);
-  }
-  void add_stats(ViewFieldNeeds computed) {
-    for (const ViewField& field : kViewFields) {
-      if (field.needs <= computed) add(field.name, field.format, field.offset);
-    }
-  }
-  Json of_size(std::size_t bytes) const {
-    return {{"names", names}, {"formats", formats}, {"offsets", offsets}, {"itemsize", bytes}};
-  }
-};
-
 Json dtype_of(const UtilityConfig& config) {
-  Dtype dtype;
-  if (is_user_planner(config)) {
-    dtype.add_stats(ViewFieldNeeds::rays);
-    return dtype.of_size(sizeof(ViewStats));
-  }
-  static_assert(offsetof(UserCandidate, stats) == 0);
+  const bool is_planner = is_user_planner(config);
   const UtilityTraits needs = needs_of(config);
-  dtype.add_stats(needs.shadow ? ViewFieldNeeds::shadow
-                  : needs.rays ? ViewFieldNeeds::rays
-                               : ViewFieldNeeds::voxels);
-  dtype.add("x_m", "<f8", offsetof(UserCandidate, x_m));
-  dtype.add("y_m", "<f8", offsetof(UserCandidate, y_m));
-  dtype.add("z_m", "<f8", offsetof(UserCandidate, z_m));
-  dtype.add("yaw_rad", "<f8", offsetof(UserCandidate, yaw_rad));
-  dtype.add("gimbal_pitch_rad", "<f8", offsetof(UserCandidate, gimbal_pitch_rad));
-  return dtype.of_size(sizeof(UserCandidate));
+  const ViewFieldNeeds computed = is_planner     ? ViewFieldNeeds::rays
+                                  : needs.shadow ? ViewFieldNeeds::shadow
+                                  : needs.rays   ? ViewFieldNeeds::rays
+                                                 : ViewFieldNeeds::voxels;
+  Json dtype = {{"itemsize", is_planner ? sizeof(ViewStats) : sizeof(UserCandidate)}};
+  const auto add = [&](std::string_view name, std::string_view format, std::size_t offset) {
+    dtype["names"].push_back(name);
+    dtype["formats"].push_back(format);
+    dtype["offsets"].push_back(offset);
+  };
+  static_assert(offsetof(UserCandidate, stats) == 0);
+  for (const ViewField& field : kViewFields) {
+    if (field.needs <= computed) add(field.name, field.format, field.offset);
+  }
+  if (is_planner) return dtype;
+  add("x_m", "<f8", offsetof(UserCandidate, x_m));
+  add("y_m", "<f8", offsetof(UserCandidate, y_m));
+  add("z_m", "<f8", offsetof(UserCandidate, z_m));
+  add("yaw_rad", "<f8", offsetof(UserCandidate, yaw_rad));
+  add("gimbal_pitch_rad", "<f8", offsetof(UserCandidate, gimbal_pitch_rad));
+  return dtype;
 }
 
 /// A function in a Python of its own.
@@ -194,7 +165,7 @@ class PythonPlanner {
         child_.send(answer(asked->get<std::string>(), message, belief));
         continue;
       }
-      const std::vector<ViewPose> views = views_of_bytes(message.bytes);
+      const std::vector<ViewPose> views = values_of<ViewPose>(message.bytes);
       if (!message.fields.contains("view")) {
         child_.fail(message, iterations_, [](std::int64_t) { return ""; });
       }
@@ -234,11 +205,11 @@ class PythonPlanner {
             {"density_max", belief.cloud.density_max()},
             {"entropy_nat", belief.grid.total_entropy_nat()},
             {"navigation_m", {list(navigation_m.min()), list(navigation_m.max())}},
-            {"current", values_of<double>(bytes_of_views({&current_, 1}))}};
+            {"current", values_of<double>(bytes_of<ViewPose>({&current_, 1}))}};
   }
 
   Message answer(const std::string& asked, const Message& question, const Belief& belief) {
-    const auto views = [&] { return views_of_bytes(question.bytes); };
+    const auto views = [&] { return values_of<ViewPose>(question.bytes); };
     if (asked == "log_odds") return {{}, bytes_of(belief.grid.all_log_odds())};
     if (asked == "words") return {{}, bytes_of(belief.grid.words())};
     if (asked == "cloud") return {{}, bytes_of(belief.cloud.points_world_m())};
@@ -247,10 +218,10 @@ class PythonPlanner {
       return {{}, bytes_of<std::int64_t>(voxels) + bytes_of<double>(densities)};
     }
     if (asked == "sample") {
-      return {{}, bytes_of_views(views_around(tools_, current_, question.fields.at("scale")))};
+      return {{}, bytes_of<ViewPose>(views_around(tools_, current_, question.fields.at("scale")))};
     }
     if (asked == "sample_frontiers") {
-      return {{}, bytes_of_views(views_of_frontiers(tools_, belief))};
+      return {{}, bytes_of<ViewPose>(views_of_frontiers(tools_, belief))};
     }
     if (asked == "evaluate") {
       return {{}, bytes_of<ViewStats>(evaluated_views(tools_, belief, current_, views()))};

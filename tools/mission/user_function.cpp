@@ -114,7 +114,11 @@ Definition chosen(const Named& named, const std::string& source) {
 
 }  // namespace
 
-bool is_user_function(std::string_view text) { return !parts_of(text).file.empty(); }
+std::vector<Override> overrides_of(const std::vector<std::string>& sets) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) overrides.push_back({set});
+  return overrides;
+}
 
 NamedMethod named_method(const std::string& text, const std::string& option,
                          const fs::path& folder) {
@@ -140,7 +144,7 @@ NamedMethod named_method(const std::string& text, const std::string& option,
                       set("python.function", yaml_in_quotes(function.name)),
                       set("python.source", yaml_in_quotes(source))}};
   if (named.name.empty()) {
-    method.longer_labels = {file_name + ":" + function.name, named.file + ":" + function.name};
+    method.longer_names = {file_name + ":" + function.name, named.file + ":" + function.name};
   }
   return method;
 }
@@ -148,12 +152,20 @@ NamedMethod named_method(const std::string& text, const std::string& option,
 void tell_apart(std::vector<NamedMethod>& methods) {
   for (std::size_t level = 0; level < 2; ++level) {
     std::map<std::string, int> counts;
-    for (const NamedMethod& method : methods) ++counts[method.label];
+    for (const NamedMethod& method : methods) ++counts[method.name];
     for (NamedMethod& method : methods) {
-      if (counts[method.label] < 2 || level >= method.longer_labels.size()) continue;
-      method.label = method.longer_labels[level];
+      if (counts[method.name] < 2 || level >= method.longer_names.size()) continue;
+      method.name = method.longer_names[level];
     }
   }
+}
+
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& texts,
+                                       const std::string& option) {
+  std::vector<NamedMethod> methods;
+  for (const std::string& text : texts) methods.push_back(named_method(text, option));
+  tell_apart(methods);
+  return methods;
 }
 
 }  // namespace gnbv

@@ -3,22 +3,21 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scenarios/load.hpp"
 
 namespace gnbv {
 
-/// Whether TEXT names a function in a file, rather than a utility of the program.
-bool is_user_function(std::string_view text);
+/// KEY=VALUE each, as `--set` gives them.
+std::vector<Override> overrides_of(const std::vector<std::string>& sets);
 
-/// A utility, or a planner, that somebody named.
+/// A utility, a planner, or other settings, by a name of its own.
 struct NamedMethod {
-  std::string label;  // the NAME, the FUNCTION, or the utility's own
-  std::vector<Override> overrides;
-  /// What to call it instead where others have its label, the shortest first; none with a NAME.
-  std::vector<std::string> longer_labels = {};
+  std::string name = {};  // the NAME, the FUNCTION, or the utility's own
+  std::vector<Override> overrides = {};
+  /// What to call it instead where others have its name, the shortest first; none with a NAME.
+  std::vector<std::string> longer_names = {};
 };
 
 /// The settings that `OPTION TEXT` stands for; a relative FILE begins at `folder`. A file is read.
@@ -27,7 +26,11 @@ struct NamedMethod {
 NamedMethod named_method(const std::string& text, const std::string& option = "--utility",
                          const std::filesystem::path& folder = {});
 
-/// Gives longer labels to those that share one.
+/// Gives longer names to those that share one.
 void tell_apart(std::vector<NamedMethod>& methods);
+
+/// Each of them, named as shortly as tells them apart.
+std::vector<NamedMethod> named_methods(const std::vector<std::string>& texts,
+                                       const std::string& option);
 
 }  // namespace gnbv

@@ -9,7 +9,7 @@
 #include "tools/mission/mission.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/user_views.hpp"
-#include "tools/terminal/stdin_lines.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 

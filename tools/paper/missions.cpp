@@ -1,7 +1,5 @@
 #include "tools/paper/missions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
@@ -15,14 +13,11 @@ std::vector<Cell> paper_cells(const PaperRequest& request) {
   for (const std::uint64_t seed : request.seeds) {
     for (const std::string& scenario : request.scenarios) {
       Sweep sweep;
-      sweep.scenarios = {{.name = scenario,
-                          .scenario = scenario,
-                          .mesh = "",
-                          .bounds_auto = false,
-                          .overrides = request.overrides}};
+      sweep.scenarios = {
+          {.name = scenario, .scenario = scenario, .overrides = overrides_of(request.overrides)}};
       for (const PaperRow& row : find_paper_table(scenario)->rows) {
-        sweep.methods.push_back(
-            {std::string(row.utility), {fmt::format("planner.utility.name={}", row.utility)}});
+        const std::string utility(row.utility);
+        sweep.methods.push_back({utility, {{"planner.utility.name=" + utility}}});
       }
       sweep.seeds = {seed};
       std::ranges::move(cells_of(sweep), std::back_inserter(cells));

@@ -4,10 +4,8 @@
 
 #include "bench/score/coverage_curve.hpp"
 #include "scenarios/load.hpp"
-#include "tools/mission/coverage_goal.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/mission/run_ceiling.hpp"
 
 namespace gnbv {
 namespace {

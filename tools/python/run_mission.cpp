@@ -149,7 +149,7 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
   RunArguments arguments = arguments_of(given);
   MissionOptions& options = arguments.mission;
   std::vector<std::string> unused_notes;
-  Scenario scenario = resolve_scenario(arguments.scenario, unused_notes);
+  Scenario scenario = resolve_scenario(arguments.scenario, &unused_notes);
   if (const auto begun = options.out / kScenarioFile;
       !planner.is_none() && options.resume && std::filesystem::exists(begun)) {
     // of a mission that was finished, which holds its views

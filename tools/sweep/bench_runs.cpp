@@ -16,22 +16,12 @@
 #include "tools/run/file_names.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/sweep/run_cells.hpp"
-#include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_lost(const std::string& termination) {
-  return termination == "collision" || termination == "off_course";
-}
-
-/// Missions that did not end by the planner's own rules are counted as they are, and named.
-bool ended_early(const std::string& termination) {
-  return termination == "battery" || termination == "interrupted";
-}
 
 std::string why_missing(const CellOutcome& outcome) {
   if (outcome.status == CellStatus::failed) return outcome.failure;
@@ -43,8 +33,7 @@ class CellNotes {
  public:
   void add(const Cell& cell, const std::string& sentence) {
     const std::string key = fmt::format("{}, {}: {}", cell.scenario, cell.method, sentence);
-    auto at = std::find_if(notes_.begin(), notes_.end(),
-                           [&](const auto& note) { return note.first == key; });
+    auto at = std::ranges::find(notes_, key, [](const auto& note) { return note.first; });
     if (at == notes_.end()) at = notes_.insert(notes_.end(), {key, {}});
     at->second.push_back(cell.seed);
   }
@@ -71,11 +60,11 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
       continue;
     }
     ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run)};
-    const std::string& termination = run.figures.termination;
-    if (is_lost(termination) || ended_early(termination)) {
-      (is_lost(termination) ? failures : notes)
-          .add(cell, fmt::format("ended by {}, counted as it is", termination));
-    }
+    // missions that did not end by the planner's own rules are counted as they are, and named
+    const std::string& end = run.figures.termination;
+    const std::string sentence = fmt::format("ended by {}, counted as it is", end);
+    if (end == "collision" || end == "off_course") failures.add(cell, sentence);
+    if (end == "battery" || end == "interrupted") notes.add(cell, sentence);
     collected.runs.push_back(std::move(run));
     collected.folders.push_back(outcomes[i].run);
   }
@@ -104,11 +93,10 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
                             .retry_failed = true,  // a failure of an earlier call is no result
                             .quiet = options.quiet};
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
-  const bool is_whole = std::none_of(outcomes.begin(), outcomes.end(), [](const CellOutcome& o) {
-    return o.status == CellStatus::missing;
-  });
   // a table of some of the missions would be misread as complete
-  if (!is_whole) throw CommandFailed("interrupted; the same command goes on");
+  if (std::ranges::count(outcomes, CellStatus::missing, &CellOutcome::status) > 0) {
+    throw CommandFailed("interrupted; the same command goes on");
+  }
   return collect(cells, outcomes);
 }
 

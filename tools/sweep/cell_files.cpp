@@ -1,5 +1,3 @@
-#include "tools/sweep/cell_files.hpp"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/sweep/run_cells.hpp"
 
 namespace gnbv {
 

@@ -1,26 +1,25 @@
 #include <algorithm>
-#include <map>
 
-#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "tools/mission/resolve.hpp"
-#include "tools/sweep/cell_id.hpp"
 #include "tools/sweep/sweep.hpp"
 #include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
 namespace {
 
-/// Resolves scenarios; the extents of their structures are found once each.
+/// Resolves the scenarios of a sweep; the extents of their structures are found once each.
 class Resolver {
  public:
-  explicit Resolver(const Sweep& sweep) : sweep_(sweep) {}
+  explicit Resolver(const Sweep& sweep) : folder_(sweep.folder.string()) {}
 
   /// Seeds aside: the seed is the scenario's own.
   Scenario resolve(const SweepScenario& scenario, const SweepMethod& method) {
-    std::vector<Override> overrides;
-    append(scenario.overrides, scenario.sources, overrides);
-    append(method.overrides, method.sources, overrides);
+    std::vector<Override> overrides = scenario.overrides;
+    overrides.insert(overrides.end(), method.overrides.begin(), method.overrides.end());
+    for (Override& given : overrides) given.folder = folder_;
     // a preset sets many keys: it would undo those that were set before it
     std::stable_partition(overrides.begin(), overrides.end(), [](const Override& given) {
       return std::string_view(given.text).substr(0, given.text.find('=')).ends_with(".preset");
@@ -29,20 +28,11 @@ class Resolver {
     options.scenario = scenario.scenario;
     options.mesh = scenario.mesh;
     options.bounds_auto = scenario.bounds_auto;
-    return resolve_scenario(options, overrides,
+    return resolve_scenario(options, nullptr, overrides,
                             [this](const Scenario& resolved) { return extent_of(resolved); });
   }
 
  private:
-  void append(const std::vector<std::string>& texts, const std::vector<std::string>& sources,
-              std::vector<Override>& overrides) const {
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      overrides.push_back({.text = texts[i],
-                           .source = i < sources.size() ? sources[i] : "",
-                           .folder = sweep_.folder.string()});
-    }
-  }
-
   StructureExtent extent_of(const Scenario& scenario) {
     Scenario only;  // what the extent depends on
     only.structure = scenario.structure;
@@ -55,19 +45,35 @@ class Resolver {
     return extents_[key] = structure_extent(scenario);
   }
 
-  const Sweep& sweep_;
+  std::string folder_;
   std::map<std::string, StructureExtent> extents_;
 };
 
-Cell make_cell(const SweepScenario& scenario, const SweepMethod& method, std::uint64_t seed,
-               const Scenario& resolved, CellNamer& namer) {
-  Cell cell = {scenario.name, method.name, seed, "", resolved};
-  cell.resolved.seed = seed;
-  cell.id = namer.id_of(cell.resolved);
-  return cell;
+}  // namespace
+
+std::string CellNamer::content_path(const std::string& path) {
+  if (path.empty()) return path;
+  std::string& known = content_paths_[path];
+  if (known.empty()) {
+    Sha256 hash;
+    hash.add(read_file(path));
+    known = "/sha256/" + hash.hex();  // absolute: to_yaml() puts the current folder before others
+  }
+  return known;
 }
 
-}  // namespace
+std::string CellNamer::id_of(const Scenario& scenario) {
+  Scenario named = scenario;
+  for (const MeshFileKey& mesh : mesh_files(named)) mesh.file->path = content_path(mesh.file->path);
+  named.planner.utility.python.label.clear();
+  named.planner.utility.python.file.clear();
+  std::string& profile = named.planner.profiling.file;
+  profile = content_path(profile);
+  Sha256 hash;
+  hash.add("gnbv cell 2\n" + version_ + "\n" + source_ + "\n");
+  hash.add(to_yaml(named));
+  return hash.hex().substr(0, 16);
+}
 
 std::size_t cell_count(const Sweep& sweep) {
   return sweep.scenarios.size() * sweep.methods.size() * sweep.seeds.size();
@@ -92,10 +98,12 @@ std::vector<Cell> cells_of(const Sweep& sweep, std::size_t first, std::size_t la
     const SweepScenario& scenario = sweep.scenarios[row / methods];
     const SweepMethod& method = sweep.methods[row % methods];
     try {
-      const Scenario resolved = resolver.resolve(scenario, method);
+      Scenario resolved = resolver.resolve(scenario, method);
       const std::size_t end = std::min(last + 1, (row + 1) * seeds);
       for (std::size_t i = std::max(first, row * seeds); i < end; ++i) {
-        cells.push_back(make_cell(scenario, method, sweep.seeds[i % seeds], resolved, namer));
+        resolved.seed = sweep.seeds[i % seeds];
+        cells.push_back(
+            {scenario.name, method.name, resolved.seed, namer.id_of(resolved), resolved});
       }
     } catch (const BadInput& error) {
       faults += fmt::format("{}\n", error.what());

@@ -7,20 +7,13 @@
 #include "planner/guided/utility.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "tools/run/user_views.hpp"
 #include "tools/sweep/manifest.hpp"
-#include "tools/terminal/command_failed.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What is compared, before anything is flown.
-struct PlannedMissions {
-  std::vector<Cell> cells;
-  std::string baseline;
-};
 
 std::vector<SweepScenario> scenarios_of(const CompareRequest& request) {
   if (request.scenarios.empty()) throw BadInput("compare: needs a SCENARIO, or --from");
@@ -41,88 +34,82 @@ std::vector<SweepScenario> scenarios_of(const CompareRequest& request) {
                          .scenario = given,
                          .mesh = request.structure.mesh,
                          .bounds_auto = request.structure.bounds_auto,
-                         .overrides = request.structure.overrides});
+                         .overrides = overrides_of(request.structure.overrides)});
   }
   return scenarios;
-}
-
-std::string chosen_baseline(const std::vector<std::string>& methods, const std::string& asked_for) {
-  if (asked_for.empty()) return methods.front();
-  if (std::find(methods.begin(), methods.end(), asked_for) != methods.end()) return asked_for;
-  throw BadInput(fmt::format("--baseline: value '{}': no method of this comparison; it has: {}",
-                             asked_for, fmt::join(methods, ", ")));
-}
-
-std::uint64_t first_seed(const CompareRequest& request) {
-  ScenarioOptions first = request.structure;  // as `run` reads it, with its faults
-  first.scenario = request.scenarios.front();
-  return resolve_scenario(first).seed;
 }
 
 /// The methods, the one named `route` with its views.
 std::vector<SweepMethod> methods_with_views(const CompareRequest& request) {
   std::vector<SweepMethod> methods = methods_of(request.methods);
   if (request.views.empty()) return methods;
+  const std::string file = request.views.string();
   const auto route = std::find_if(methods.begin(), methods.end(), [](const SweepMethod& method) {
     return method.name == kRouteName;
   });
   if (route == methods.end()) {
-    throw BadInput(fmt::format("--views {}: goes with {} among --utilities", request.views.string(),
-                               kRouteName));
+    throw BadInput(fmt::format("--views {}: goes with {} among --utilities", file, kRouteName));
   }
-  route->sources.resize(route->overrides.size());
-  route->overrides.push_back(views_override(read_user_views(request.views)));
-  route->sources.push_back(fmt::format("--views {}", request.views.string()));
+  route->overrides.push_back(views_of_file(file));
   return methods;
 }
 
-PlannedMissions plan_of(const CompareRequest& request, int seeds) {
-  Sweep sweep{.scenarios = scenarios_of(request), .methods = {}, .seeds = {}, .folder = {}};
-  sweep.methods = methods_with_views(request);
+/// Each once, in their order.
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all, std::string Named::*name) {
   std::vector<std::string> names;
-  for (const SweepMethod& method : sweep.methods) names.push_back(method.name);
-  PlannedMissions plan{.cells = {}, .baseline = chosen_baseline(names, request.baseline)};
-  sweep.seeds = seeds_from(first_seed(request), seeds);
-  plan.cells = cells_of(sweep);
-  return plan;
+  for (const Named& one : all) {
+    if (std::find(names.begin(), names.end(), one.*name) == names.end()) names.push_back(one.*name);
+  }
+  return names;
 }
 
-PlannedMissions plan_of_sweep(const CompareRequest& request) {
-  PlannedMissions plan{.cells = cells_of_manifest(request.from), .baseline = {}};
-  std::vector<std::string> names;
-  for (const Cell& cell : plan.cells) {
-    if (std::find(names.begin(), names.end(), cell.method) == names.end()) {
-      names.push_back(cell.method);
-    }
+/// What the others are tested against.
+std::string baseline_of(const CompareRequest& request, const std::vector<std::string>& methods) {
+  if (request.baseline.empty()) return methods.front();
+  if (std::find(methods.begin(), methods.end(), request.baseline) != methods.end()) {
+    return request.baseline;
   }
-  if (names.size() < 2) {
-    throw BadInput(
-        fmt::format("{}: the sweep has one method: nothing to compare", request.from.string()));
-  }
-  plan.baseline = chosen_baseline(names, request.baseline);
-  return plan;
+  throw BadInput(fmt::format("--baseline: value '{}': no method of this comparison; it has: {}",
+                             request.baseline, fmt::join(methods, ", ")));
+}
+
+std::vector<Cell> cells_to_fly(const CompareRequest& request, int seeds) {
+  Sweep sweep{.scenarios = scenarios_of(request), .methods = methods_with_views(request)};
+  baseline_of(request, names_of(sweep.methods,
+                                &SweepMethod::name));  // is told before the faults of the methods
+  ScenarioOptions first = request.structure;           // as `run` reads it, with its faults
+  first.scenario = request.scenarios.front();
+  sweep.seeds = seeds_from(resolve_scenario(first).seed, seeds);
+  return cells_of(sweep);
 }
 
 }  // namespace
 
 ComparedMissions compare_missions(const CompareRequest& request, const BenchOptions& options) {
   const bool flies = request.from.empty();
-  const PlannedMissions plan =
-      flies ? plan_of(request, options.seed_count) : plan_of_sweep(request);
-  ComparedMissions all{.flown = flies ? fly_cells(plan.cells, options)
-                                      : read_cells(plan.cells, request.from)};
+  const std::vector<Cell> cells =
+      flies ? cells_to_fly(request, options.seed_count) : cells_of_manifest(request.from);
+  const std::vector<std::string> methods = names_of(cells, &Cell::method);
+  if (methods.size() < 2) {
+    throw BadInput(
+        fmt::format("{}: the sweep has one method: nothing to compare", request.from.string()));
+  }
+  const std::string baseline = baseline_of(request, methods);
+  ComparedMissions all{.flown =
+                           flies ? fly_cells(cells, options) : read_cells(cells, request.from)};
   const BenchRuns& flown = all.flown;
   const bool has_baseline =
       std::any_of(flown.runs.begin(), flown.runs.end(),
-                  [&](const ComparedRun& run) { return run.method == plan.baseline; });
+                  [&](const ComparedRun& run) { return run.method == baseline; });
   if (!has_baseline) {
-    throw CommandFailed(fmt::format("no mission of the baseline, {}, is done:\n{}", plan.baseline,
+    throw CommandFailed(fmt::format("no mission of the baseline, {}, is done:\n{}", baseline,
                                     fmt::join(flown.notes, "\n")));
   }
   std::vector<std::string> notes = flown.notes;
   const Ceilings ceilings = request.no_ceiling ? Ceilings{} : ceilings_of(flown, options, notes);
   if (!request.no_ceiling) add_given_ceiling_note(options, notes);
-  all.comparison = compare(flown.runs, plan.baseline, ceilings);
+  all.comparison = compare(flown.runs, baseline, ceilings);
   TextTable table = comparison_table(all.comparison);
   table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   all.bench = {{std::move(table)}, flown.failures};

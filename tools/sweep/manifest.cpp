@@ -43,12 +43,20 @@ Cell cell_from(const Json& json, const fs::path& manifest) {
   return cell;
 }
 
+std::string_view name_of(CellStatus status) {
+  return kCellStatusNames.at(static_cast<std::size_t>(status));
+}
+
+/// On one line; a path need not be UTF-8.
+std::string one_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 /// A list with one item a line: readable, and small with many of them.
 std::string by_line(const std::vector<Json>& items) {
   std::string text = "[";
   for (const Json& item : items) {
-    text += (text.size() == 1 ? "\n  " : ",\n  ") +
-            item.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += (text.size() == 1 ? "\n  " : ",\n  ") + one_line(item);
   }
   return text + "\n]";
 }
@@ -76,26 +84,9 @@ std::vector<std::pair<std::string, Json>> columns_of(const RunFigures& f) {
 
 }  // namespace
 
-std::string_view name_of(CellStatus status) {
-  switch (status) {
-    case CellStatus::done:
-      return "done";
-    case CellStatus::failed:
-      return "failed";
-    case CellStatus::locked:
-      return "running";
-    case CellStatus::missing:
-      return "missing";
-  }
-  return "";
-}
-
 void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<const Cell> cells) {
   std::vector<Json> items;
   for (std::size_t i = 0; i < cells.size(); ++i) items.push_back(described(cells[i], i));
-  const auto quoted = [](const std::string& text) {
-    return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-  };
   std::error_code error;
   fs::create_directories(folder, error);  // a failure is one of the file, too
   write_file_atomically(
@@ -104,8 +95,8 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
                   "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
                   GNBV_VERSION, flying_source_id(),
-                  quoted(fs::absolute(yaml).lexically_normal().string()), quoted(read_file(yaml)),
-                  by_line(items)));
+                  one_line(fs::absolute(yaml).lexically_normal().string()),
+                  one_line(read_file(yaml)), by_line(items)));
 }
 
 std::optional<Manifest> read_manifest(const fs::path& folder) {

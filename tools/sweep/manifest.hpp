@@ -23,7 +23,7 @@ struct Manifest {
   std::vector<Cell> cells = {};  // by index; their scenarios are not resolved
 };
 
-/// Nothing when there is no manifest; throws BadInput naming one that is none, or damaged.
+/// Nothing when there is none; throws BadInput naming one that is no manifest, or damaged.
 std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 
 /// The cells of a folder that has to be one of a sweep: throws BadInput when it is none.
@@ -37,7 +37,5 @@ std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome
 
 /// The cells as a JSON list, each with its status, run directory or failure.
 std::string cells_json(std::span<const Cell> cells, std::span<const CellOutcome> outcomes);
-
-std::string_view name_of(CellStatus status);
 
 }  // namespace gnbv

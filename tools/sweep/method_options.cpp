@@ -1,13 +1,10 @@
-#include "tools/sweep/method_options.hpp"
-
 #include <fmt/format.h>
 
 #include <set>
 #include <string_view>
 
-#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/user_function.hpp"
+#include "tools/sweep/compare_missions.hpp"
 
 namespace gnbv {
 namespace {
@@ -45,43 +42,29 @@ bool sets_seed(std::string_view assignment) {
   return key.substr(std::min(key.find_first_not_of(' '), key.size())) == "seed";
 }
 
-/// A name that nobody knows is told before that there is nothing to compare it with.
-void need_known_names(const MethodOptions& options) {
-  std::vector<Override> sets;
-  for (const std::string& utility : options.utilities) {
-    if (!is_user_function(utility)) {
-      sets.push_back(named_method(utility, "--utilities").overrides.front());
-    }
-  }
-  for (const std::string& preset : options.presets) {
-    sets.push_back(
-        {.text = "planner.preset=" + preset, .source = "--presets " + preset, .folder = {}});
-  }
-  for (const Override& set : sets) load_with_overrides("smoke", {set});
-}
-
 class Methods {
  public:
-  void add(SweepMethod method) { add(method.name, std::move(method.overrides)); }
-  void add(const std::string& name, std::vector<std::string> overrides) {
-    if (!names_.insert(name).second) add_fault(fmt::format("method '{}': named twice", name));
-    methods_.push_back({name, std::move(overrides)});
+  void add(SweepMethod method) {
+    if (!names_.insert(method.name).second) {
+      add_fault(fmt::format("method '{}': named twice", method.name));
+    }
+    methods_.push_back(std::move(method));
   }
 
   void add_variant(const std::string& text) {
     const std::size_t colon = text.substr(0, text.find('=')).find(':');
     const bool is_named = colon != std::string::npos;
-    const std::string name = is_named ? text.substr(0, colon) : text;
-    const std::vector<std::string> parts =
-        split_at_commas(is_named ? std::string_view(text).substr(colon + 1) : text);
-    for (const std::string& part : parts) {
-      if (!is_assignment(part) || name.empty()) {
+    SweepMethod method{.name = text.substr(0, colon)};
+    if (!is_named) method.name = text;
+    for (std::string& part : split_at_commas(is_named ? text.substr(colon + 1) : text)) {
+      if (!is_assignment(part) || method.name.empty()) {
         return add_fault(
             fmt::format("--variant: value '{}': expected [NAME:]KEY=VALUE[,KEY=VALUE]...", text));
       }
       if (sets_seed(part)) return add_seed_fault("--variant", text);
+      method.overrides.push_back({std::move(part)});
     }
-    add(name, parts);
+    add(std::move(method));
   }
 
   void add_varied(const std::string& text) {
@@ -93,13 +76,15 @@ class Methods {
       if (equals == std::string::npos || !is_assignment(assignment)) {
         return add_fault(fmt::format("--vary: value '{}': expected KEY=VALUE[,VALUE]...", text));
       }
-      add(assignment, {assignment});
+      add({assignment, {{assignment}}});
     }
   }
 
   std::vector<SweepMethod> all(const MethodOptions& options) && {
     if (faults_.empty() && methods_.size() < 2) {
-      need_known_names(options);
+      // a name that nobody knows is told before that there is nothing to compare it with
+      const bool has_name = !options.utilities.empty() || !options.presets.empty();
+      if (has_name) load_with_overrides("smoke", methods_.at(0).overrides);
       add_fault(fmt::format(
           "{}: nothing to compare with; name more by --utilities, --presets, --variant or --vary",
           methods_.empty() ? "no method" : "one method, '" + methods_[0].name + "'"));
@@ -123,30 +108,16 @@ class Methods {
 
 }  // namespace
 
-std::vector<SweepMethod> methods_of_utilities(const std::vector<std::string>& utilities) {
-  std::vector<NamedMethod> named;
-  for (const std::string& utility : utilities) {
-    named.push_back(named_method(utility, "--utilities"));
-  }
-  tell_apart(named);
-  std::vector<SweepMethod> methods;
-  for (NamedMethod& one : named) {
-    methods.push_back({.name = std::move(one.label), .overrides = {}});
-    for (Override& set : one.overrides) methods.back().overrides.push_back(std::move(set.text));
-  }
-  return methods;
-}
-
 std::vector<SweepMethod> methods_of(const MethodOptions& options) {
   Methods methods;
   const bool only_variants = options.utilities.empty() && options.presets.empty() &&
                              options.varies.empty() && !options.variants.empty();
-  if (only_variants) methods.add("default", {});
-  for (SweepMethod& method : methods_of_utilities(options.utilities)) {
+  if (only_variants) methods.add({.name = "default"});
+  for (SweepMethod& method : named_methods(options.utilities, "--utilities")) {
     methods.add(std::move(method));
   }
   for (const std::string& preset : options.presets) {
-    methods.add(preset, {"planner.preset=" + preset});
+    methods.add({preset, {{"planner.preset=" + preset, "--presets " + preset}}});
   }
   for (const std::string& variant : options.variants) methods.add_variant(variant);
   for (const std::string& varied : options.varies) methods.add_varied(varied);

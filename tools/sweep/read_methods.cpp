@@ -1,155 +1,118 @@
-#include "tools/sweep/read_methods.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "scenarios/document.hpp"
 #include "sim/core/error.hpp"
-#include "tools/mission/user_function.hpp"
+#include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
 namespace {
 
-using Kind = YamlNode::Kind;
-
 // What two methods of one name make with a grid of thousands of points is told in few words.
 constexpr std::size_t kMostNamed = 20;
 
-struct NamedSettings {
-  std::string name;
-  Settings settings;
-};
+void append(std::vector<Override>& overrides, const std::vector<Override>& more) {
+  overrides.insert(overrides.end(), more.begin(), more.end());
+}
 
 class MethodReader {
  public:
-  MethodReader(const std::filesystem::path& folder, SweepYaml& yaml)
-      : folder_(folder), yaml_(yaml) {}
+  MethodReader(const YamlNode& root, const std::filesystem::path& folder, SweepYaml& yaml)
+      : root_(root), grid_(root.find("grid")), folder_(folder), yaml_(yaml) {}
 
-  std::vector<SweepMethod> read(const YamlNode& root) {
-    std::vector<NamedSettings> bases = read_utilities(root);
-    for (NamedSettings& base : read_presets(root)) {
-      bases.push_back(std::move(base));
-    }
-    for (NamedSettings& base : read_variants(root.find("variants"))) {
-      bases.push_back(std::move(base));
-    }
-    refuse_double_keys(root.find("grid"), bases);
-    if (bases.empty()) bases.push_back({"", {}});
-    const std::vector<NamedSettings> points = read_grid(root.find("grid"));
+  std::vector<SweepMethod> read() {
+    std::vector<SweepMethod> bases = read_utilities();
+    read_presets(bases);
+    read_variants(bases);
+    refuse_double_keys(bases);
+    if (bases.empty()) bases.push_back({});
+    const std::vector<SweepMethod> points = read_grid();
     if (bases.size() * points.size() > kMaxCells) {
-      yaml_.fault(*root.find("grid"), "grid", fmt::format("makes more than {} methods", kMaxCells));
+      yaml_.fault(*grid_, "grid", fmt::format("makes more than {} methods", kMaxCells));
       return {};
     }
     std::vector<SweepMethod> methods;
     std::set<std::string> names;
     std::size_t twice = 0;
-    for (const NamedSettings& base : bases) {
-      for (const NamedSettings& point : points) {
-        Settings settings = base.settings;
-        settings.add(point.settings);
-        std::string name = base.name;
-        if (!point.name.empty()) name += (name.empty() ? "" : " ") + point.name;
-        if (name.empty()) name = "default";
-        if (!names.insert(name).second && twice++ < kMostNamed) {
-          yaml_.fault(root, "", fmt::format("the name '{}' is given twice", name));
+    for (const SweepMethod& base : bases) {
+      for (const SweepMethod& point : points) {
+        SweepMethod& method = methods.emplace_back(base);
+        append(method.overrides, point.overrides);
+        method.name += (base.name.empty() || point.name.empty() ? "" : " ") + point.name;
+        if (method.name.empty()) method.name = "default";
+        if (!names.insert(method.name).second && twice++ < kMostNamed) {
+          yaml_.fault(root_, "", fmt::format("the name '{}' is given twice", method.name));
         }
-        methods.push_back({name, std::move(settings.overrides), std::move(settings.sources)});
       }
     }
     return methods;
   }
 
  private:
-  struct GivenName {
-    const YamlNode& node;
-    std::string path, name;
-  };
-  std::vector<GivenName> names_in(const YamlNode& root, const std::string& section) {
-    const YamlNode* const list = root.find(section);
-    if (list == nullptr) return {};
-    std::vector<GivenName> names;
+  std::vector<SweepMethod> read_utilities() {
+    std::vector<SweepMethod> methods;
     int index = 0;
-    for (const YamlNode* node : yaml_.items_of(*list, section)) {
-      const std::string path = fmt::format("{}.{}", section, index++);
+    for (const YamlNode* node : yaml_.items_of(root_.find("utilities"), "utilities")) {
+      const std::string path = fmt::format("utilities.{}", index++);
       const std::string name = yaml_.text_of(node, path, "a name");
-      if (!name.empty()) names.push_back({*node, path, name});
-    }
-    return names;
-  }
-
-  std::vector<NamedSettings> read_presets(const YamlNode& root) {
-    std::vector<NamedSettings> bases;
-    for (const GivenName& given : names_in(root, "presets")) {
-      bases.push_back({given.name, {}});
-      bases.back().settings.add("planner.preset=" + flow_yaml(given.node), given.node.location);
-    }
-    return bases;
-  }
-
-  std::vector<NamedSettings> read_utilities(const YamlNode& root) {
-    std::vector<NamedMethod> methods;
-    std::vector<SourceLocation> locations;
-    for (const GivenName& given : names_in(root, "utilities")) {
+      if (name.empty()) continue;
       try {
-        methods.push_back(named_method(given.name, "utilities", folder_));
-        locations.push_back(given.node.location);
+        methods.push_back(named_method(name, "utilities", folder_));
+        for (Override& set : methods.back().overrides) set.source = text_of(node->location);
       } catch (const BadInput& error) {
-        yaml_.fault(given.node, given.path, error.what());
+        yaml_.fault(*node, path, error.what());
       }
     }
     tell_apart(methods);
-    std::vector<NamedSettings> bases;
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-      bases.push_back({std::move(methods[i].label), {}});
-      for (Override& set : methods[i].overrides) {
-        bases.back().settings.add(std::move(set.text), locations[i]);
-      }
-    }
-    return bases;
+    return methods;
   }
 
-  std::vector<NamedSettings> read_variants(const YamlNode* list) {
-    std::vector<NamedSettings> bases;
-    if (list == nullptr) return bases;
+  void read_presets(std::vector<SweepMethod>& bases) {
     int index = 0;
-    for (const YamlNode* node : yaml_.items_of(*list, "variants")) {
+    for (const YamlNode* node : yaml_.items_of(root_.find("presets"), "presets")) {
+      const std::string name = yaml_.text_of(node, fmt::format("presets.{}", index++), "a name");
+      if (name.empty()) continue;
+      bases.push_back({name, {{"planner.preset=" + flow_yaml(*node), text_of(node->location)}}});
+    }
+  }
+
+  void read_variants(std::vector<SweepMethod>& bases) {
+    int index = 0;
+    for (const YamlNode* node : yaml_.items_of(root_.find("variants"), "variants")) {
       const std::string path = fmt::format("variants.{}", index++);
       if (!yaml_.require_map(*node, path, {"name", "set"})) continue;
       if (node->find("name") == nullptr) yaml_.fault(*node, path, "has no key 'name'");
       const std::string name = yaml_.text_of(node->find("name"), path + ".name", "a name");
-      Settings settings = yaml_.settings_of(node->find("set"), path + ".set");
+      std::vector<Override> settings = yaml_.settings_of(node->find("set"), path + ".set");
       if (!name.empty()) bases.push_back({name, std::move(settings)});
     }
-    return bases;
   }
 
   /// The points of the grid, its last key fastest; one point without a name when there is none.
-  std::vector<NamedSettings> read_grid(const YamlNode* grid) {
-    std::vector<NamedSettings> points = {{"", {}}};
-    if (grid == nullptr) return points;
-    if (grid->kind != Kind::map) {
-      yaml_.fault(*grid, "grid", "expects a map of scenario keys, each with a list of values");
+  std::vector<SweepMethod> read_grid() {
+    std::vector<SweepMethod> points(1);
+    if (grid_ == nullptr) return points;
+    if (grid_->kind != YamlNode::Kind::map) {
+      yaml_.fault(*grid_, "grid", "expects a map of scenario keys, each with a list of values");
       return points;
     }
-    for (const YamlEntry& entry : grid->entries) {
+    for (const YamlEntry& entry : grid_->entries) {
       const std::string path = "grid." + entry.key;
       const auto values = values_of(entry.value, path);
       if (entry.key == "seed") yaml_.fault(entry.value, path, "seeds are given by the key 'seeds'");
       if (values.empty() || entry.key == "seed") continue;
       if (points.size() * values.size() > kMaxCells) {
-        yaml_.fault(*grid, "grid", fmt::format("has more than {} points", kMaxCells));
-        return {{"", {}}};
+        yaml_.fault(*grid_, "grid", fmt::format("has more than {} points", kMaxCells));
+        return std::vector<SweepMethod>(1);
       }
-      const std::string label = short_name(*grid, entry.key);
-      std::vector<NamedSettings> next;
-      for (const NamedSettings& point : points) {
+      const std::string label = short_name(entry.key);
+      std::vector<SweepMethod> next;
+      for (const SweepMethod& point : points) {
         for (const YamlNode* value : values) {
           const std::string text = flow_yaml(*value);
-          NamedSettings added = point;
+          SweepMethod& added = next.emplace_back(point);
           added.name += fmt::format("{}{}={}", point.name.empty() ? "" : " ", label, text);
-          added.settings.add(fmt::format("{}={}", entry.key, text), value->location);
-          next.push_back(std::move(added));
+          added.overrides.push_back({entry.key + "=" + text, text_of(value->location)});
         }
       }
       points = std::move(next);
@@ -159,7 +122,7 @@ class MethodReader {
 
   /// Each once.
   std::vector<const YamlNode*> values_of(const YamlNode& list, const std::string& path) {
-    std::vector<const YamlNode*> values = yaml_.items_of(list, path);
+    std::vector<const YamlNode*> values = yaml_.items_of(&list, path);
     std::set<std::string> texts;
     std::erase_if(values, [&](const YamlNode* value) {
       const std::string text = flow_yaml(*value);
@@ -170,41 +133,42 @@ class MethodReader {
     return values;
   }
 
-  /// Whether setting one of the keys sets the other, or a part of it.
-  static bool overlap(const std::string& a, const std::string& b) {
-    return a == b || a.starts_with(b + '.') || b.starts_with(a + '.');
-  }
-
-  /// The grid comes last: what a method says by the same key would count for nothing.
-  void refuse_double_keys(const YamlNode* grid, const std::vector<NamedSettings>& bases) {
-    if (grid == nullptr || grid->kind != Kind::map) return;
-    for (const YamlEntry& entry : grid->entries) {
-      for (const NamedSettings& base : bases) {
-        const auto& set = base.settings.overrides;
-        const auto text = std::find_if(set.begin(), set.end(), [&](const std::string& one) {
-          return overlap(one.substr(0, one.find('=')), entry.key);
-        });
-        if (text == set.end()) continue;
+  /// The grid comes last: what a method says by the same key, or by a part of it, would count for
+  /// nothing.
+  void refuse_double_keys(const std::vector<SweepMethod>& bases) {
+    if (grid_ == nullptr || grid_->kind != YamlNode::Kind::map) return;
+    for (const YamlEntry& entry : grid_->entries) {
+      const auto key_set_twice = [&](const SweepMethod& base) -> std::string {
+        for (const Override& set : base.overrides) {
+          const std::string key = set.text.substr(0, set.text.find('='));
+          if (is_at_or_below(key, entry.key) || is_at_or_below(entry.key, key)) return key;
+        }
+        return "";
+      };
+      for (const SweepMethod& base : bases) {
+        const std::string key = key_set_twice(base);
+        if (key.empty()) continue;
         yaml_.fault(entry.value, "grid." + entry.key,
-                    fmt::format("the method '{}' sets {}, too", base.name,
-                                text->substr(0, text->find('='))));
+                    fmt::format("the method '{}' sets {}, too", base.name, key));
         break;  // one is enough to see it
       }
     }
   }
 
   /// The last word of a key, or all of it where another key of the grid ends alike.
-  static std::string short_name(const YamlNode& grid, const std::string& key) {
+  std::string short_name(const std::string& key) const {
     const auto last_word = [](const std::string& path) {
       return path.substr(path.rfind('.') + 1);  // npos + 1 = 0: all of it
     };
     const bool is_unique =
-        std::count_if(grid.entries.begin(), grid.entries.end(), [&](const YamlEntry& entry) {
+        std::count_if(grid_->entries.begin(), grid_->entries.end(), [&](const YamlEntry& entry) {
           return last_word(entry.key) == last_word(key);
         }) == 1;
     return is_unique ? last_word(key) : key;
   }
 
+  const YamlNode& root_;
+  const YamlNode* grid_;
   const std::filesystem::path& folder_;
   SweepYaml& yaml_;
 };
@@ -213,7 +177,7 @@ class MethodReader {
 
 std::vector<SweepMethod> read_methods(const YamlNode& root, const std::filesystem::path& folder,
                                       SweepYaml& yaml) {
-  return MethodReader(folder, yaml).read(root);
+  return MethodReader(root, folder, yaml).read();
 }
 
 }  // namespace gnbv

@@ -4,11 +4,8 @@
 #include <charconv>
 #include <set>
 
-#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "tools/sweep/read_methods.hpp"
-#include "tools/sweep/sweep.hpp"
 #include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
@@ -66,40 +63,36 @@ class SweepReader {
   void read_scenarios(const YamlNode& root) {
     const YamlNode* const list = root.find("scenarios");
     if (list == nullptr) return values_.fault(root, "scenarios", "is missing: which scenarios?");
-    const Settings common = values_.settings_of(root.find("set"), "set");
+    const std::vector<Override> common = values_.settings_of(root.find("set"), "set");
     std::set<std::string> names;
     int index = 0;
-    for (const YamlNode* node : values_.items_of(*list, "scenarios")) {
+    for (const YamlNode* node : values_.items_of(list, "scenarios")) {
       const std::string path = fmt::format("scenarios.{}", index++);
-      SweepScenario scenario =
-          node->kind == Kind::map ? read_scenario_map(*node, path, common) : SweepScenario{};
-      if (node->kind != Kind::map) {
-        set_scenario(node, path, scenario);
-        scenario.overrides = common.overrides;
-        scenario.sources = common.sources;
+      SweepScenario scenario{.overrides = common};
+      if (node->kind == Kind::map) {
+        read_scenario_map(*node, path, scenario);
+      } else {
+        scenario.scenario = scenario_of(node, path);
         scenario.name = fs::path(scenario.scenario).stem().string();
       }
       if (scenario.scenario.empty()) continue;  // named already
-      values_.require_unique(scenario.name, names, *node, path);
+      if (!names.insert(scenario.name).second) {
+        values_.fault(*node, path, fmt::format("the name '{}' is given twice", scenario.name));
+      }
       sweep_.scenarios.push_back(std::move(scenario));
     }
   }
 
-  SweepScenario read_scenario_map(const YamlNode& node, const std::string& path,
-                                  const Settings& common) {
-    SweepScenario scenario;
+  void read_scenario_map(const YamlNode& node, const std::string& path, SweepScenario& scenario) {
     values_.require_map(node, path, {"name", "scenario", "mesh", "bounds", "set"});
-    const YamlNode* const base = node.find("scenario");
-    if (base == nullptr) values_.fault(node, path, "has no key 'scenario'");
-    set_scenario(base, path + ".scenario", scenario);
+    if (node.find("scenario") == nullptr) values_.fault(node, path, "has no key 'scenario'");
+    scenario.scenario = scenario_of(node.find("scenario"), path + ".scenario");
     const std::string mesh =
         values_.text_of(node.find("mesh"), path + ".mesh", "the path of a mesh");
-    if (!mesh.empty()) {
+    if (!mesh.empty() && fs::is_regular_file(absolute(mesh))) {
       scenario.mesh = absolute(mesh);
-      if (!fs::is_regular_file(scenario.mesh)) {
-        values_.fault(*node.find("mesh"), path + ".mesh", "no such file");
-        scenario.mesh.clear();
-      }
+    } else if (!mesh.empty()) {
+      values_.fault(*node.find("mesh"), path + ".mesh", "no such file");
     }
     if (const YamlNode* const bounds = node.find("bounds")) {
       scenario.bounds_auto = bounds->text == "auto";
@@ -107,33 +100,28 @@ class SweepReader {
         values_.fault(*bounds, path + ".bounds", "expects auto or scenario");
       }
     }
-    Settings settings = common;
-    settings.add(values_.settings_of(node.find("set"), path + ".set"));
-    scenario.overrides = std::move(settings.overrides);
-    scenario.sources = std::move(settings.sources);
+    const std::vector<Override> own = values_.settings_of(node.find("set"), path + ".set");
+    scenario.overrides.insert(scenario.overrides.end(), own.begin(), own.end());
     scenario.name = values_.text_of(node.find("name"), path + ".name", "a name");
     if (scenario.name.empty()) {
       scenario.name = fs::path(mesh.empty() ? scenario.scenario : mesh).stem().string();
     }
-    return scenario;
   }
 
-  /// A built-in name stays; a path becomes absolute.
-  void set_scenario(const YamlNode* node, const std::string& path, SweepScenario& scenario) {
+  /// A built-in name stays; a path becomes absolute; "" where it is neither, which is a fault.
+  std::string scenario_of(const YamlNode* node, const std::string& path) {
     const std::string name =
         values_.text_of(node, path, "the name of a built-in scenario or the path of one");
-    if (name.empty()) return;
     const std::vector<std::string> builtin = builtin_scenario_names();
-    if (std::find(builtin.begin(), builtin.end(), name) != builtin.end()) {
-      scenario.scenario = name;
-    } else if (fs::is_regular_file(absolute(name))) {
-      scenario.scenario = absolute(name);
-    } else {
-      const std::vector<std::string_view> names(builtin.begin(), builtin.end());
-      values_.fault(*node, path,
-                    fmt::format("no such file, and no built-in scenario ({}built in: {})",
-                                did_you_mean(name, names), join(names)));
+    if (name.empty() || std::find(builtin.begin(), builtin.end(), name) != builtin.end()) {
+      return name;
     }
+    if (fs::is_regular_file(absolute(name))) return absolute(name);
+    const std::vector<std::string_view> names(builtin.begin(), builtin.end());
+    values_.fault(*node, path,
+                  fmt::format("no such file, and no built-in scenario ({}built in: {})",
+                              did_you_mean(name, names), join(names)));
+    return "";
   }
 
   // ---- seeds
@@ -161,15 +149,15 @@ class SweepReader {
       } else if (count) {
         for (std::uint64_t seed = 1; seed <= *count; ++seed) sweep_.seeds.push_back(seed);
       }
-    } else if (node->items.empty()) {
-      values_.fault(*node, "seeds", "the list is empty");
+      return;
     }
     std::set<std::uint64_t> seen;
-    for (std::size_t i = 0; i < node->items.size(); ++i) {
-      const std::string path = fmt::format("seeds.{}", i);
-      const auto seed = read_seed(node->items[i], path);
+    int index = 0;
+    for (const YamlNode* item : values_.items_of(node, "seeds")) {
+      const std::string path = fmt::format("seeds.{}", index++);
+      const auto seed = read_seed(*item, path);
       if (!seed) continue;
-      if (!seen.insert(*seed).second) values_.fault(node->items[i], path, "is given twice");
+      if (!seen.insert(*seed).second) values_.fault(*item, path, "is given twice");
       sweep_.seeds.push_back(*seed);
     }
   }

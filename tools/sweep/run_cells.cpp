@@ -17,7 +17,6 @@
 #include "sim/core/file.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/sweep/cell_files.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 

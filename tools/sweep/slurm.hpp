@@ -9,14 +9,14 @@
 namespace gnbv {
 
 struct SlurmOptions {
-  std::filesystem::path program;  // gnbv
-  std::filesystem::path sweep_file;
-  std::filesystem::path folder;  // of the sweep
+  std::filesystem::path program{};  // gnbv
+  std::filesystem::path sweep_file{};
+  std::filesystem::path folder{};  // of the sweep
   std::size_t cells = 0;
   int threads = 1;  // of a mission: cpus-per-task
   int limit = 0;    // tasks at a time; 0 = as many as the cluster gives
   bool retry_failed = false;
-  std::string arguments;  // further options of sbatch, as its command line takes them
+  std::string arguments{};  // further options of sbatch, as its command line takes them
 };
 
 /// Slurm's default for the length of an array, where the cluster's own is not known.

@@ -3,36 +3,35 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "scenarios/scenario.hpp"
+#include "bench/sources/source_ids.hpp"
+#include "scenarios/load.hpp"
+#include "tools/mission/user_function.hpp"
 
 namespace gnbv {
 
 /// A scenario as a table or comparison names it, and how it is made.
 struct SweepScenario {
-  std::string name;      // of the row; unique in a sweep
-  std::string scenario;  // built-in name or YAML path
-  std::string mesh;      // "" keeps the scenario's structure
+  std::string name = {};      // of the row; unique in a sweep
+  std::string scenario = {};  // built-in name or YAML path
+  std::string mesh = {};      // "" keeps the scenario's structure
   bool bounds_auto = false;
-  std::vector<std::string> overrides;  // key=value, in order
-  std::vector<std::string> sources{};  // of each override, as faults show it; empty: --set
+  std::vector<Override> overrides = {};  // in order
 };
 
-/// What is compared: a utility, a preset, one switch.
-struct SweepMethod {
-  std::string name;                    // unique in a sweep
-  std::vector<std::string> overrides;  // key=value, after the scenario's
-  std::vector<std::string> sources{};  // as SweepScenario::sources
-};
+/// What is compared: a utility, a preset, one switch; its overrides come after the scenario's.
+using SweepMethod = NamedMethod;
 
 struct Sweep {
-  std::vector<SweepScenario> scenarios;
-  std::vector<SweepMethod> methods;
-  std::vector<std::uint64_t> seeds;
-  std::filesystem::path
-      folder{};  // where relative paths in overrides begin; empty: the current one
+  std::vector<SweepScenario> scenarios = {};
+  std::vector<SweepMethod> methods = {};  // of different names
+  std::vector<std::uint64_t> seeds = {};
+  std::filesystem::path folder =
+      {};  // where relative paths in overrides begin; "": the current one
 };
 
 /// One mission of it.
@@ -42,6 +41,28 @@ struct Cell {
   std::uint64_t seed = 0;
   std::string id;  // CellNamer::id_of()
   Scenario resolved;
+};
+
+/// Names cells by what their results depend on; remembers the content of the files it has read.
+class CellNamer {
+ public:
+  explicit CellNamer(std::string version = GNBV_VERSION, std::string source = flying_source_id())
+      : version_(std::move(version)), source_(std::move(source)) {}
+
+  /// 16 hexadecimal digits of the SHA-256 of the program (its version and flying_source_id()) and
+  /// the resolved scenario, in which files (a mesh, a saved profile) are named by the SHA-256 of
+  /// their content, wherever they lie, and a function of the user's own by its text alone. Two
+  /// builds of the same sources share their cells, any change of what flies a mission does not. A
+  /// file that the mesh refers to (the .bin of a .gltf) is not followed. Throws BadInput naming a
+  /// file that cannot be read.
+  std::string id_of(const Scenario& scenario);
+
+ private:
+  std::string content_path(const std::string& path);
+
+  std::string version_;
+  std::string source_;
+  std::map<std::string, std::string> content_paths_;
 };
 
 /// More are refused: a slip in a grid, not a sweep.

@@ -8,19 +8,23 @@
 #include <sstream>
 #include <utility>
 
-#include "scenarios/document.hpp"
-
 namespace gnbv {
+namespace {
 
-void Settings::add(std::string text, const SourceLocation& location) {
-  overrides.push_back(std::move(text));
-  sources.push_back(text_of(location));
+/// "file:12: what" is in line 12 of the file; line 0 without one.
+std::pair<std::string, int> place_of(const std::string& fault) {
+  for (std::size_t at = fault.find(':'); at != std::string::npos; at = fault.find(':', at + 1)) {
+    int line = 0;
+    const char* const end = fault.data() + fault.size();
+    const auto read = std::from_chars(fault.data() + at + 1, end, line);
+    if (read.ec == std::errc{} && read.ptr != end && *read.ptr == ':') {
+      return {fault.substr(0, at), line};
+    }
+  }
+  return {"", 0};
 }
 
-void Settings::add(const Settings& others) {
-  overrides.insert(overrides.end(), others.overrides.begin(), others.overrides.end());
-  sources.insert(sources.end(), others.sources.begin(), others.sources.end());
-}
+}  // namespace
 
 void SweepYaml::fault(const YamlNode& node, const std::string& path, const std::string& what) {
   const SourceLocation location =
@@ -45,18 +49,12 @@ bool SweepYaml::require_map(const YamlNode& node, const std::string& path,
   return true;
 }
 
-void SweepYaml::require_unique(const std::string& name, std::set<std::string>& names,
-                               const YamlNode& node, const std::string& path) {
-  if (!names.insert(name).second) {
-    fault(node, path, fmt::format("the name '{}' is given twice", name));
-  }
-}
-
-std::vector<const YamlNode*> SweepYaml::items_of(const YamlNode& node, const std::string& path) {
-  if (node.kind != YamlNode::Kind::list) return {&node};
+std::vector<const YamlNode*> SweepYaml::items_of(const YamlNode* node, const std::string& path) {
+  if (node == nullptr) return {};
+  if (node->kind != YamlNode::Kind::list) return {node};
   std::vector<const YamlNode*> items;
-  for (const YamlNode& item : node.items) items.push_back(&item);
-  if (items.empty()) fault(node, path, "the list is empty");
+  for (const YamlNode& item : node->items) items.push_back(&item);
+  if (items.empty()) fault(*node, path, "the list is empty");
   return items;
 }
 
@@ -68,8 +66,8 @@ std::string SweepYaml::text_of(const YamlNode* node, const std::string& path,
   return "";
 }
 
-Settings SweepYaml::settings_of(const YamlNode* node, const std::string& path) {
-  Settings settings;
+std::vector<Override> SweepYaml::settings_of(const YamlNode* node, const std::string& path) {
+  std::vector<Override> settings;
   if (node == nullptr) return settings;
   if (node->kind != YamlNode::Kind::map) {
     fault(*node, path, "expects a map of scenario keys, as in planner.agvs.step_m: 0.5");
@@ -79,28 +77,12 @@ Settings SweepYaml::settings_of(const YamlNode* node, const std::string& path) {
     if (entry.key == "seed") {
       errors_.add(entry.location, path + ".seed", "", "seeds are given by the key 'seeds'");
     } else {
-      settings.add(fmt::format("{}={}", entry.key, flow_yaml(entry.value)), entry.location);
+      settings.push_back({.text = fmt::format("{}={}", entry.key, flow_yaml(entry.value)),
+                          .source = gnbv::text_of(entry.location)});
     }
   }
   return settings;
 }
-
-namespace {
-
-/// "file:12: what" is in line 12 of the file; line 0 without one.
-std::pair<std::string, int> place_of(const std::string& fault) {
-  for (std::size_t at = fault.find(':'); at != std::string::npos; at = fault.find(':', at + 1)) {
-    int line = 0;
-    const char* const end = fault.data() + fault.size();
-    const auto read = std::from_chars(fault.data() + at + 1, end, line);
-    if (read.ec == std::errc{} && read.ptr != end && *read.ptr == ':') {
-      return {fault.substr(0, at), line};
-    }
-  }
-  return {"", 0};
-}
-
-}  // namespace
 
 std::string in_order_of_lines(const std::string& faults) {
   std::vector<std::string> lines;

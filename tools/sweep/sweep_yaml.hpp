@@ -9,17 +9,9 @@
 #include <vector>
 
 #include "scenarios/document.hpp"
+#include "tools/sweep/sweep.hpp"
 
 namespace gnbv {
-
-/// Overrides with where they were given.
-struct Settings {
-  std::vector<std::string> overrides;
-  std::vector<std::string> sources;
-
-  void add(std::string text, const SourceLocation& location);
-  void add(const Settings& others);
-};
 
 /// Reads values and keeps what is wrong with them.
 class SweepYaml {
@@ -33,22 +25,25 @@ class SweepYaml {
   bool require_map(const YamlNode& node, const std::string& path,
                    std::initializer_list<std::string_view> known);
 
-  void require_unique(const std::string& name, std::set<std::string>& names, const YamlNode& node,
-                      const std::string& path);
-
-  /// The items of a list, which has some; a single value is a list of one.
-  std::vector<const YamlNode*> items_of(const YamlNode& node, const std::string& path);
+  /// The items of a list, which has some; a single value is a list of one; none without a node.
+  std::vector<const YamlNode*> items_of(const YamlNode* node, const std::string& path);
 
   /// The text of a scalar; empty where there is no node, and, with a fault, where it is none.
   std::string text_of(const YamlNode* node, const std::string& path, const std::string& what);
 
   /// A map of scenario keys as overrides; none where there is no node.
-  Settings settings_of(const YamlNode* node, const std::string& path);
+  std::vector<Override> settings_of(const YamlNode* node, const std::string& path);
 
  private:
   std::string file_;
   ValidationErrors errors_;
 };
+
+/// The methods of a sweep file: utilities, presets and variants side by side, each at every point
+/// of the grid, whose last key changes fastest; "default" where there is neither. A utility may be
+/// a function of the user's own, [NAME=]FILE.py[:FUNCTION], beside `folder`.
+std::vector<SweepMethod> read_methods(const YamlNode& root, const std::filesystem::path& folder,
+                                      SweepYaml& yaml);
 
 /// ValidationErrors of many locations, one a line: each once, those of a file together and in its
 /// order.

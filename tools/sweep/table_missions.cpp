@@ -12,7 +12,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/sweep/method_options.hpp"
 
 namespace gnbv {
 namespace {
@@ -45,31 +44,27 @@ bool sets_max_iterations(const TableRequest& request, const Scenario& resolved) 
 
 Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scenario& first,
                int seeds) {
-  Sweep sweep;
-  SweepScenario scenario{.name = std::string(paper.scenario),
-                         .scenario = request.scenario.scenario,
-                         .mesh = request.scenario.mesh,
-                         .bounds_auto = request.scenario.bounds_auto,
-                         .overrides = {}};
+  std::vector<std::string> sets = request.scenario.overrides;
   if (!request.scenario.preset.empty()) {
-    scenario.overrides.push_back("planner.preset=" + request.scenario.preset);
+    sets.insert(sets.begin(), "planner.preset=" + request.scenario.preset);
   }
-  scenario.overrides.insert(scenario.overrides.end(), request.scenario.overrides.begin(),
-                            request.scenario.overrides.end());
-  sweep.scenarios = {scenario};
+  Sweep sweep{.scenarios = {{.name = std::string(paper.scenario),
+                             .scenario = request.scenario.scenario,
+                             .mesh = request.scenario.mesh,
+                             .bounds_auto = request.scenario.bounds_auto,
+                             .overrides = overrides_of(sets)}}};
   // after the scenario's, so that it is the row's whatever the user set
   const auto add_row = [&](std::string_view utility) {
-    sweep.methods.push_back(
-        {std::string(utility), {fmt::format("planner.utility.name={}", utility)}});
+    const std::string name(utility);
+    sweep.methods.push_back({name, {{"planner.utility.name=" + name}}});
   };
   const bool is_limited = sets_max_iterations(request, first);
   const auto add_row_to_the_end = [&](std::string_view utility) {
     add_row(utility);
-    if (is_limited) return;
-    sweep.methods.back().overrides.push_back(kToTheEnd);
+    if (!is_limited) sweep.methods.back().overrides.push_back({kToTheEnd});
   };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
-  for (SweepMethod& method : methods_of_utilities(request.utilities)) {
+  for (SweepMethod& method : named_methods(request.utilities, "--utilities")) {
     sweep.methods.push_back(std::move(method));
   }
   for (const auto tour : planners_that(&PlannerTraits::makes_tours)) add_row_to_the_end(tour);
@@ -89,7 +84,7 @@ Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scena
 }
 
 /// Of a mission whose sensors and poses are exact, as those of the ceiling.
-std::vector<std::string> exact_overrides(const Scenario& scenario) {
+std::vector<Override> exact_overrides(const Scenario& scenario) {
   std::vector<std::string> sets = {"vehicle.estimate.model=none"};
   for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
     sets.push_back(fmt::format("cameras.{}.noise.model=none", i));
@@ -97,7 +92,7 @@ std::vector<std::string> exact_overrides(const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.lidars.size(); ++i) {
     sets.push_back(fmt::format("lidars.{}.range_sigma_m=0", i));
   }
-  return sets;
+  return overrides_of(sets);
 }
 
 /// The missions whose mean lies above the ceiling once more, without noise: is it by noise alone?
@@ -111,8 +106,8 @@ Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<Compa
     }
     return covered.empty() || estimate_mean(covered).mean <= ceiling.leaf_outside[0];
   });
+  const std::vector<Override> exact = exact_overrides(scenario);
   for (SweepMethod& method : sweep.methods) {
-    const std::vector<std::string> exact = exact_overrides(scenario);
     method.overrides.insert(method.overrides.end(), exact.begin(), exact.end());
   }
   return sweep;

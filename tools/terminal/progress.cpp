@@ -10,7 +10,7 @@
 
 #include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "sim/core/text.hpp"
-#include "tools/terminal/width.hpp"
+#include "tools/terminal/streams.hpp"
 
 namespace gnbv {
 

@@ -3,10 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
 namespace gnbv {
+
+/// What was asked for did not come about (exit code 1): a mission that ended in a collision. Is
+/// said as the last word.
+class CommandFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// As it is, flushed.
 void print_to_stderr(std::string_view text);

@@ -4,14 +4,30 @@
 
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "sim/core/file.hpp"
-#include "tests/support/export_text.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/exports/formats.hpp"
 
 namespace gnbv {
 namespace {
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::istringstream text(read_file(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with('#')) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line, char separator) {
+  std::istringstream text(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(text, cell, separator);) cells.push_back(cell);
+  return cells;
+}
 
 /// Two views of each camera, in the order given; cameras differ in their width.
 FrameRecord frames_of(const std::vector<std::string>& names, const TempFolder& temp) {

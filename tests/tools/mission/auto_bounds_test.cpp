@@ -82,21 +82,16 @@ TEST(AutoBounds, EveryStructureGetsRoomOnTheLatticeAndALegalStart) {
 }
 
 TEST(AutoBounds, FloorIsTheGroundUnlessTheStructureSinksOrFloatsAway) {
-  Scenario scenario = aircraft();
-  const auto floor_of = [&](double lowest_m) {
-    return with_bounds_around(scenario,
-                              {Box3(Vec3(-1, -1, lowest_m), Vec3(1, 1, lowest_m + 2)), {}})
-        .workspace_m.min()
-        .z();
-  };
-  EXPECT_EQ(floor_of(0.0), 0.0);
-  EXPECT_EQ(floor_of(4.9), 0.0);
-  EXPECT_EQ(floor_of(-5e-4), 0.0);  // written coordinates are rounded
-  EXPECT_NEAR(floor_of(-1.9), -2.0, 1e-9);
-  EXPECT_NEAR(floor_of(100.0), 95.0, 1e-9);
-  EXPECT_NEAR(floor_of(-50.0), -50.0, 1e-9);
-  scenario.structure.ground = false;
-  EXPECT_NEAR(floor_of(0.0), -5.0, 1e-9);
+  const std::tuple<bool, double, double> cases[] = {
+      {true, 0.0, 0.0},   {true, 4.9, 0.0},    {true, -5e-4, 0.0},  // written numbers are rounded
+      {true, -1.9, -2.0}, {true, 100.0, 95.0}, {true, -50.0, -50.0}, {false, 0.0, -5.0}};
+  for (const auto& [has_ground, lowest_m, floor_m] : cases) {
+    Scenario scenario = aircraft();
+    scenario.structure.ground = has_ground;
+    const Box3 structure_m(Vec3(-1, -1, lowest_m), Vec3(1, 1, lowest_m + 2));
+    EXPECT_NEAR(with_bounds_around(scenario, {structure_m, {}}).workspace_m.min().z(), floor_m,
+                1e-9);
+  }
 }
 
 /// A slender mast with a cabin on top, 28 m above the ground.
@@ -128,39 +123,33 @@ TEST(AutoBounds, AStartAtTheBoxsLowestEdgeIsInTheBox) {
   EXPECT_GT(lowest, 20) << "the test is about another start";
 }
 
-class GivenBoundsTest : public testing::Test {
- protected:
-  GivenBoundsTest() { write_mesh(lookout(), temp_.path() / "t.obj"); }
-  Scenario resolved(const std::vector<std::string>& sets) const {
-    ScenarioOptions options;
-    options.scenario = "aircraft";
-    options.mesh = (temp_.path() / "t.obj").string();
+TEST(AutoBounds, WhatTheUserSaysWinsAndWhatDoesNotFitIsRefusedByItsOwnName) {
+  const TempFolder temp;
+  write_mesh(lookout(), temp.path() / "t.obj");
+  ScenarioOptions options;
+  options.scenario = "aircraft";
+  options.mesh = (temp.path() / "t.obj").string();
+  options.bounds_auto = true;
+  const auto resolved = [&](const std::vector<std::string>& sets) {
     options.overrides = sets;
-    options.bounds_auto = true;
     return resolve_scenario(options);
-  }
-  TempFolder temp_;
-};
-
-TEST_F(GivenBoundsTest, WhatTheUserSaysWins) {
+  };
   // outside the scenario's own workspace, and outside what would be laid around the structure
-  const Scenario start = resolved({"start.position_m=[0, -30, 35]"});
+  const std::string far = "start.position_m=[0, -30, 35]";
+  const Scenario start = resolved({far});
   EXPECT_EQ(start.start.pose.p_world_m, Vec3(0, -30, 35));
   EXPECT_LE(start.workspace_m.min().y(), -30.0);
   EXPECT_GE(start.workspace_m.max().y(), 10.0);
   EXPECT_NEAR(start.start.pose.yaw_rad, 0.5 * kPi, 1e-9);
   EXPECT_NEAR(resolved({"start={yaw_deg: 10}"}).start.pose.yaw_rad, deg_to_rad(10.0), 1e-12);
-  const Scenario room = resolved({"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}"});
+  const std::string narrow = "workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}";
+  const Scenario room = resolved({narrow});
   EXPECT_EQ(room.workspace_m.min(), Vec3(-9, -9, 0));
   EXPECT_EQ(room.workspace_m.max(), Vec3(9, 9, 40));
   EXPECT_TRUE(room.workspace_m.contains(room.start.pose.p_world_m));
   EXPECT_GT(room.start.pose.p_world_m.z(), 26.0);
-}
-
-TEST_F(GivenBoundsTest, WhatDoesNotFitIsRefusedByItsOwnName) {
-  const std::vector<std::string> sets = {"workspace_m={min: [-9, -9, 0], max: [9, 9, 40]}",
-                                         "start.position_m=[0, -30, 35]"};
-  EXPECT_TRUE(test::says(test::fault_of([&] { resolved(sets); }), {"--set start.position_m"}));
+  const std::string fault = test::fault_of([&] { resolved({narrow, far}); });
+  EXPECT_TRUE(test::says(fault, {"--set start.position_m"}));
 }
 
 TEST(AutoBounds, WhatNoMapCanHoldIsSaidByItsProblems) {

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -29,22 +29,17 @@ class UserFunction : public testing::Test {
     return "";
   }
   static std::string fault_of(const std::string& text) {
-    try {
-      named_method(text);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+    return test::fault_of([&] { named_method(text); });
   }
 
   TempFolder temp_;
 };
 
 TEST_F(UserFunction, AFileAloneMeansItsOneFunctionAndNeverOneOfSeveral) {
-  EXPECT_EQ(named_method(file("one.py", "scale = 2\ndef f(views):\n  return views\n")).label, "f");
+  EXPECT_EQ(named_method(file("one.py", "scale = 2\ndef f(views):\n  return views\n")).name, "f");
   const std::string several = file("two.py", "def f(v): return v\n\ndef g(v): return v\n");
   EXPECT_THAT(fault_of(several), testing::HasSubstr("defines several functions (f, g)"));
-  EXPECT_EQ(named_method(several + ":f").label, "f");
+  EXPECT_EQ(named_method(several + ":f").name, "f");
   EXPECT_THAT(fault_of(several + ":h"), testing::HasSubstr("two.py: defines no function 'h'"));
   EXPECT_THAT(fault_of(file("none.py", "x = 1\n")), testing::HasSubstr("defines no function"));
   EXPECT_THAT(fault_of("gone.py"), testing::HasSubstr("gone.py"));
@@ -73,7 +68,7 @@ TEST_F(UserFunction, LabelsAreAsShortAsTellsThemApart) {
     for (const std::string& text : texts) methods.push_back(named_method(text, "", temp_.path()));
     tell_apart(methods);
     std::vector<std::string> all;
-    for (const NamedMethod& method : methods) all.push_back(method.label);
+    for (const NamedMethod& method : methods) all.push_back(method.name);
     return all;
   };
   for (const char* name : {"u.py", "v.py", "w/v.py"}) {

@@ -45,14 +45,11 @@ TEST(UserRoute, FliesWhatMayBeFlownInItsOrderAndSaysWhyTheRestIsNot) {
     outcomes.emplace_back(given.rejected ? std::string(name_of(*given.rejected))
                                          : fmt::format("{}", given.iteration.value()));
   }
-  EXPECT_EQ(outcomes[0], "out_of_bounds");
-  EXPECT_EQ(outcomes[1], "1");
   EXPECT_TRUE(outcomes[2] == "not_free" || outcomes[2] == "collision") << outcomes[2];
-  EXPECT_EQ(outcomes[3], "2");
-  EXPECT_EQ(outcomes[4], "out_of_bounds");
-  EXPECT_EQ(outcomes[5], "beyond_gimbal");
-  EXPECT_EQ(outcomes[6], "3");
-  EXPECT_EQ(outcomes[7], "4");         // twice given, twice flown
+  outcomes[2] = "in the structure";
+  EXPECT_EQ(outcomes,
+            (std::vector<std::string>{"out_of_bounds", "1", "in the structure", "2",
+                                      "out_of_bounds", "beyond_gimbal", "3", "4"}));  // once more
   ASSERT_EQ(result.views.size(), 5U);  // and the start
   for (const UserView& given : result.user_views) {
     if (!given.iteration) continue;

@@ -13,7 +13,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/sweep/cell_files.hpp"
 
 namespace gnbv {
 namespace {
@@ -22,15 +21,10 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 Sweep smoke_sweep(int views, std::vector<std::uint64_t> seeds) {
-  Sweep sweep;
-  sweep.scenarios = {{.name = "smoke",
-                      .scenario = "smoke",
-                      .mesh = "",
-                      .bounds_auto = false,
-                      .overrides = {fmt::format("planner.termination.max_iterations={}", views)}}};
-  sweep.methods = {{.name = "proposed", .overrides = {}}};
-  sweep.seeds = std::move(seeds);
-  return sweep;
+  const Override few{fmt::format("planner.termination.max_iterations={}", views)};
+  return {.scenarios = {{.name = "smoke", .scenario = "smoke", .overrides = {few}}},
+          .methods = {{.name = "proposed"}},
+          .seeds = std::move(seeds)};
 }
 
 class RunCells : public testing::Test {
@@ -46,68 +40,52 @@ class RunCells : public testing::Test {
   }
   fs::path folder() const { return temp_.path() / "sweep"; }
 
-  std::string sha(const Cell& cell) const {
-    const fs::path summary = cell_files(folder(), cell.id).run / "summary.json";
-    return nlohmann::json::parse(read_file(summary)).at("result_sha256");
+  static std::string sha(const fs::path& run) {
+    return nlohmann::json::parse(read_file(run / "summary.json")).at("result_sha256");
+  }
+
+  /// A program of these lines of shell.
+  fs::path script(const std::string& lines) const {
+    const fs::path path = temp_.path() / "script";
+    std::ofstream(path) << "#!/bin/sh\n" << lines << "\n";
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+  }
+
+  /// A program that notes its arguments and then flies, and how often it was given that word.
+  fs::path noting_program() const {
+    return script("echo \"$@\" >> " + (temp_.path() / "flown").string() +
+                  "\nexec " GNBV_PROGRAM " \"$@\"");
+  }
+  std::size_t flights(const std::string& word) const {
+    std::ifstream file(temp_.path() / "flown");
+    std::size_t count = 0;
+    for (std::string line; std::getline(file, line);) count += line.find(word) != std::string::npos;
+    return count;
   }
 
   TempFolder temp_;
 };
 
-/// How often noting_program() was started with this word in its arguments.
-std::size_t flights(const fs::path& program_log, const std::string& id) {
-  std::ifstream file(program_log);
-  std::size_t count = 0;
-  for (std::string line; std::getline(file, line);) count += line.find(id) != std::string::npos;
-  return count;
-}
-
-/// A program that notes its arguments and then flies.
-fs::path noting_program(const fs::path& folder) {
-  const fs::path script = folder / "noting";
-  std::ofstream(script) << "#!/bin/sh\necho \"$@\" >> " << (folder / "flown").string()
-                        << "\nexec " GNBV_PROGRAM " \"$@\"\n";
-  fs::permissions(script, fs::perms::owner_all);
-  return script;
-}
-
-TEST_F(RunCells, ASecondCallRunsNothing) {
-  const std::vector<Cell> cells = cells_of(smoke_sweep(1, {1, 2, 3}));
-  RunCellsOptions all = options();
-  all.program = noting_program(temp_.path());
-  const std::vector<CellOutcome> first = run_cells(cells, all);
-  const std::vector<CellOutcome> second = run_cells(cells, all);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    EXPECT_EQ(first[i].status, CellStatus::done);
-    EXPECT_EQ(second[i].status, CellStatus::done);
-    EXPECT_EQ(first[i].run, second[i].run);
-    EXPECT_EQ(flights(temp_.path() / "flown", cells[i].id + ".part/scenario.yaml"), 1U);
-    const CellFiles files = cell_files(folder(), cells[i].id);
-    EXPECT_TRUE(fs::exists(files.run / "summary.json"));
-    EXPECT_FALSE(fs::exists(files.part));
-    EXPECT_FALSE(fs::exists(files.lock));
-  }
-}
-
 TEST_F(RunCells, CellsOfTheSameContentAreFlownOnce) {
   Sweep sweep = smoke_sweep(1, {1});
-  sweep.methods.push_back({.name = "the same", .overrides = {"planner.utility.name=proposed"}});
+  sweep.methods.push_back({.name = "the same", .overrides = {{"planner.utility.name=proposed"}}});
   const std::vector<Cell> cells = cells_of(sweep);
   ASSERT_EQ(cells[0].id, cells[1].id);
   RunCellsOptions all = options();
-  all.program = noting_program(temp_.path());
+  all.program = noting_program();
   const std::vector<CellOutcome> outcomes = run_cells(cells, all);
   EXPECT_EQ(outcomes[0].run, outcomes[1].run);
   EXPECT_EQ(outcomes[1].status, CellStatus::done);
-  EXPECT_EQ(flights(temp_.path() / "flown", "scenario.yaml"), 1U);
+  EXPECT_EQ(flights("scenario.yaml"), 1U);
 }
 
 TEST_F(RunCells, AFailedCellIsRecordedAndStopsNothing) {
   Sweep sweep = smoke_sweep(1, {1});
   sweep.methods.insert(sweep.methods.begin(),
                        {.name = "inside",  // a start within the structure: no mission can begin
-                        .overrides = {"start={position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}",
-                                      "planner.validity.z_min_m=0"}});
+                        .overrides = {{"start={position_m: [0, 0, 0.5], jitter_m: [0, 0, 0]}"},
+                                      {"planner.validity.z_min_m=0"}}});
   const std::vector<Cell> cells = cells_of(sweep);
   RunCellsOptions all = options(1);
   std::vector<CellOutcome> outcomes = run_cells(cells, all);
@@ -129,12 +107,9 @@ TEST_F(RunCells, AFailedCellIsRecordedAndStopsNothing) {
 }
 
 TEST_F(RunCells, AKilledMissionIsRecordedWithItsSignal) {
-  const fs::path script = temp_.path() / "dies";
-  std::ofstream(script) << "#!/bin/sh\necho last words >&2\nkill -SEGV $$\n";
-  fs::permissions(script, fs::perms::owner_all);
   const std::vector<Cell> cells = cells_of(smoke_sweep(1, {1}));
   RunCellsOptions all = options();
-  all.program = script;
+  all.program = script("echo last words >&2\nkill -SEGV $$");
   EXPECT_EQ(run_cells(cells, all)[0].failure,
             "killed by signal 11 (Segmentation fault): last words");
 }
@@ -181,13 +156,17 @@ int end_of(pid_t child) {
 TEST_F(RunCells, TwoSweepsAtOnceFlyEachCellOnce) {
   const std::vector<Cell> cells = cells_of(smoke_sweep(1, {1, 2, 3, 4, 5, 6}));
   RunCellsOptions all = options(2);
-  all.program = noting_program(temp_.path());
+  all.program = noting_program();
   const pid_t a = sweep_process(cells, all);
   const pid_t b = sweep_process(cells, all);
   EXPECT_EQ(end_of(a), 0);
   EXPECT_EQ(end_of(b), 0);
   for (const Cell& cell : cells) {
-    EXPECT_EQ(flights(temp_.path() / "flown", cell.id + ".part/scenario.yaml"), 1U);
+    EXPECT_EQ(flights(cell.id + ".part/scenario.yaml"), 1U);
+    const CellFiles files = cell_files(folder(), cell.id);
+    EXPECT_TRUE(fs::exists(files.run / "summary.json"));
+    EXPECT_FALSE(fs::exists(files.part));
+    EXPECT_FALSE(fs::exists(files.lock));
   }
 }
 
@@ -210,19 +189,15 @@ class Stopped : public RunCells {
   std::string undisturbed_sha(const std::vector<Cell>& cells) const {
     RunCellsOptions all = options();
     all.folder = temp_.path() / "undisturbed";
-    const fs::path run = run_cells(cells, all)[0].run;
-    return nlohmann::json::parse(read_file(run / "summary.json")).at("result_sha256");
+    return sha(run_cells(cells, all)[0].run);
   }
 };
 
 TEST_F(Stopped, AKilledSweepGoesOnToTheSameResult) {
   const std::vector<Cell> cells = cells_of(smoke_sweep(30, {1}));
-  const fs::path script = temp_.path() / "noting_pid";
-  std::ofstream(script) << "#!/bin/sh\necho $$ > " << (temp_.path() / "pid").string()
-                        << "\nexec " GNBV_PROGRAM " \"$@\"\n";
-  fs::permissions(script, fs::perms::owner_all);
   RunCellsOptions all = options();
-  all.program = script;
+  all.program =
+      script("echo $$ > " + (temp_.path() / "pid").string() + "\nexec " GNBV_PROGRAM " \"$@\"");
   const pid_t sweep = sweep_process(cells, all);
   await_views(cells[0]);
   kill(sweep, SIGKILL);
@@ -237,7 +212,7 @@ TEST_F(Stopped, AKilledSweepGoesOnToTheSameResult) {
   EXPECT_TRUE(fs::exists(files.part / "iterations.csv.part"));
   EXPECT_FALSE(fs::exists(files.run));
   EXPECT_EQ(run_cells(cells, options())[0].status, CellStatus::done);
-  EXPECT_EQ(sha(cells[0]), undisturbed_sha(cells));
+  EXPECT_EQ(sha(files.run), undisturbed_sha(cells));
 }
 
 TEST_F(Stopped, AnInterruptedSweepLeavesWhatALaterOneResumes) {
@@ -251,17 +226,14 @@ TEST_F(Stopped, AnInterruptedSweepLeavesWhatALaterOneResumes) {
   EXPECT_FALSE(fs::exists(files.failed));
   EXPECT_EQ(look_up(folder(), cells[0]).status, CellStatus::missing);
   EXPECT_EQ(run_cells({cells.data(), 1}, options())[0].status, CellStatus::done);
-  EXPECT_EQ(sha(cells[0]), undisturbed_sha({cells[0]}));
+  EXPECT_EQ(sha(files.run), undisturbed_sha({cells[0]}));
 }
 
 TEST_F(Stopped, TwoSignalsKillAndRecordNoFailure) {
-  const fs::path script = temp_.path() / "stubborn";
-  std::ofstream(script) << "#!/bin/sh\ntrap '' INT TERM\ntouch " << (temp_.path() / "up").string()
-                        << "\nwhile :; do :; done\n";
-  fs::permissions(script, fs::perms::owner_all);
   const std::vector<Cell> cells = cells_of(smoke_sweep(1, {1}));
   RunCellsOptions all = options();
-  all.program = script;
+  all.program =
+      script("trap '' INT TERM\ntouch " + (temp_.path() / "up").string() + "\nwhile :; do :; done");
   const pid_t sweep = sweep_process(cells, all);
   for (int i = 0; i < 2000 && !fs::exists(temp_.path() / "up"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

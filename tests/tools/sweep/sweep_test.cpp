@@ -7,10 +7,9 @@
 #include <set>
 
 #include "scenarios/document.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/sweep/cell_id.hpp"
 
 namespace gnbv {
 namespace {
@@ -28,13 +27,7 @@ class SweepFile : public testing::Test {
 
   /// What reading the file or resolving its cells complains about, with short paths.
   std::string complaint(const std::string& text) {
-    std::string message;
-    try {
-      cells_of(read(text));
-      return "";
-    } catch (const BadInput& error) {
-      message = error.what();
-    }
+    std::string message = test::fault_of([&] { cells_of(read(text)); });
     const std::string folder = temp_.path().string() + '/';
     for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder))
       message.erase(at, folder.size());
@@ -207,26 +200,23 @@ TEST_F(SweepFile, AllFaultsAreNamedAtOnceWithTheirLines) {
       "s.yaml:13: seeds.2: value '1': is given twice");
 }
 
-TEST_F(SweepFile, AGridKeyThatAMethodSetsIsAFault) {
-  const auto fault_of = [&](const std::string& methods, const std::string& key) {
-    return complaint("scenarios: smoke\n" + methods + "\ngrid: {" + key + ": [isler, paper]}\n");
-  };
-  EXPECT_THAT(fault_of("utilities: [proposed]", "planner.utility.name"),
-              HasSubstr("s.yaml:3: grid.planner.utility.name: value '[isler, paper]': the method "
-                        "'proposed' sets planner.utility.name, too"));
-  EXPECT_THAT(fault_of("presets: [released]", "planner.preset"), HasSubstr("'released' sets"));
-  EXPECT_THAT(fault_of("variants: [{name: v, set: {planner.utility: {name: isler}}}]",
-                       "planner.utility.name"),
-              HasSubstr("'v' sets planner.utility, too"));
+TEST_F(SweepFile, AKeyOrANameThatIsGivenTwiceIsAFault) {
+  const std::string twice = "\ngrid: {planner.utility.name: [isler, paper]}\n";
+  const std::pair<std::string, std::string> cases[] = {
+      {"utilities: [proposed]" + twice,
+       "s.yaml:3: grid.planner.utility.name: value '[isler, paper]': the method 'proposed' sets "
+       "planner.utility.name, too"},
+      {"presets: [released]\ngrid: {planner.preset: [paper]}\n", "'released' sets"},
+      {"variants: [{name: v, set: {planner.utility: {name: isler}}}]" + twice,
+       "'v' sets planner.utility, too"},
+      {"utilities: [isler, isler]\n", "the name 'isler' is given twice"}};
+  for (const auto& [methods, says] : cases) {
+    EXPECT_THAT(complaint("scenarios: smoke\n" + methods), HasSubstr(says));
+  }
+  EXPECT_THAT(complaint("scenarios: [smoke, smoke]\n"), HasSubstr("s.yaml:1: scenarios.1"));
   EXPECT_EQ(complaint("scenarios: smoke\nutilities: [proposed]\n"
                       "grid: {planner.utility.lambda_per_m: [0.1, 0.2]}\n"),
             "");
-}
-
-TEST_F(SweepFile, NamesStandForOneRowEach) {
-  EXPECT_THAT(complaint("scenarios: [smoke, smoke]\n"), HasSubstr("s.yaml:1: scenarios.1"));
-  EXPECT_THAT(complaint("scenarios: smoke\nutilities: [isler, isler]\n"),
-              HasSubstr("the name 'isler' is given twice"));
 }
 
 TEST_F(SweepFile, AFlowTextReadsBackAsTheSameValue) {

@@ -1,4 +1,4 @@
-// What a mission that keeps its candidates also keeps: what it believed where it meant to look.
+// `--candidates`: every decision's candidates, and what was believed where it meant to look.
 #pragma once
 
 #include "planner/core/belief.hpp"
@@ -6,6 +6,7 @@
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/run/beliefs_jsonl.hpp"
+#include "tools/run/candidates_jsonl.hpp"
 
 namespace gnbv {
 
@@ -13,22 +14,23 @@ namespace gnbv {
 BelievedVoxels believed_voxels(const PlannerModel& model, const FrontierConfig& frontier,
                                const Belief& belief, const Plan& plan, FrontierMarks& marks);
 
-/// Writes beliefs.jsonl while the mission flies. Decides nothing and changes nothing.
-class BeliefLog final : public MissionObserver {
+/// Writes candidates.jsonl and beliefs.jsonl while the mission flies.
+class DecisionLog final : public MissionObserver {
  public:
-  /// As BeliefsFile.
-  BeliefLog(const Scenario& scenario, const std::filesystem::path& folder,
-            std::size_t first_iteration);
+  /// As CandidatesFile and BeliefsFile.
+  DecisionLog(const Scenario& scenario, const std::filesystem::path& folder,
+              std::size_t first_iteration);
 
   void on_view(const ViewRecord&, const Belief& belief) override { belief_ = &belief; }
   void on_plan(std::size_t iteration, const Plan& plan) override;
-  void finish() { file_.finish(); }
+  void finish();
 
  private:
   PlannerModel model_;
   FrontierConfig frontier_;
   FrontierMarks marks_;
-  BeliefsFile file_;
+  CandidatesFile candidates_;
+  BeliefsFile beliefs_;
   const Belief* belief_ = nullptr;  // after the latest view: the mission's own
 };
 

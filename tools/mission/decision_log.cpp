@@ -1,4 +1,4 @@
-#include "tools/mission/belief_log.hpp"
+#include "tools/mission/decision_log.hpp"
 
 #include <algorithm>
 
@@ -39,17 +39,24 @@ BelievedVoxels believed_voxels(const PlannerModel& model, const FrontierConfig& 
   return voxels;
 }
 
-BeliefLog::BeliefLog(const Scenario& scenario, const std::filesystem::path& folder,
-                     std::size_t first_iteration)
+DecisionLog::DecisionLog(const Scenario& scenario, const std::filesystem::path& folder,
+                         std::size_t first_iteration)
     : model_(planner_model(scenario)),
       frontier_(scenario.planner.fvs.frontier),
       marks_(GridGeometry(scenario.workspace_m, scenario.planner.map.resolution_m).voxel_count()),
-      file_(folder, first_iteration) {}
+      candidates_(folder, first_iteration),
+      beliefs_(folder, first_iteration) {}
 
-void BeliefLog::on_plan(std::size_t iteration, const Plan& plan) {
+void DecisionLog::on_plan(std::size_t iteration, const Plan& plan) {
+  candidates_.write(iteration, plan);
   GNBV_CHECK(belief_ != nullptr, "a decision before the first view");
   if (!plan.has_view() || plan.candidates.empty()) return;
-  file_.write(iteration, believed_voxels(model_, frontier_, *belief_, plan, marks_));
+  beliefs_.write(iteration, believed_voxels(model_, frontier_, *belief_, plan, marks_));
+}
+
+void DecisionLog::finish() {
+  candidates_.finish();
+  beliefs_.finish();
 }
 
 }  // namespace gnbv
