@@ -6,7 +6,7 @@
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/score/coverage_curve.hpp"
-#include "bench/score/scored_points.hpp"
+#include "bench/score/cloud_metrics.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/start_pose.hpp"
 
