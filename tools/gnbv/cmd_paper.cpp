@@ -12,8 +12,8 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/paper/page.hpp"
-#include "tools/terminal/command_failed.hpp"
 #include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {

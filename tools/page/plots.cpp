@@ -6,6 +6,9 @@
 #include <map>
 #include <set>
 
+#include "tools/figures/curves.hpp"
+#include "tools/figures/figure.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/page/report.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/compare/paper_figures.hpp"
-#include "tools/figures/drawn_groups.hpp"
+#include "tools/figures/group_figures.hpp"
 #include "tools/paper/missions.hpp"
 
 namespace gnbv {

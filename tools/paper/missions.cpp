@@ -5,7 +5,7 @@
 
 #include "bench/compare/paper_figures.hpp"
 #include "tools/sweep/run_cells.hpp"
-#include "tools/terminal/command_failed.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 std::vector<Cell> paper_cells(const PaperRequest& request) {
