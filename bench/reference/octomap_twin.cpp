@@ -17,6 +17,8 @@ struct OctomapTwin::Tree {
 
 OctomapTwin::OctomapTwin(std::unique_ptr<Tree> tree) : tree_(std::move(tree)) {}
 OctomapTwin::~OctomapTwin() = default;
+OctomapTwin::OctomapTwin(OctomapTwin&&) noexcept = default;
+OctomapTwin& OctomapTwin::operator=(OctomapTwin&&) noexcept = default;
 
 OctomapTwin::OctomapTwin(const OccupancyConfig& config)
     : tree_(std::make_unique<Tree>(config.resolution_m)) {

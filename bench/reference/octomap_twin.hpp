@@ -31,6 +31,8 @@ class OctomapTwin {
  public:
   explicit OctomapTwin(const OccupancyConfig& config);
   ~OctomapTwin();
+  OctomapTwin(OctomapTwin&&) noexcept;
+  OctomapTwin& operator=(OctomapTwin&&) noexcept;
 
   /// A tree from a .ot or .bt file. Throws BadInput naming the path when OctoMap cannot read it.
   static OctomapTwin read(const std::filesystem::path& path);
