@@ -50,13 +50,14 @@ def test_only_fields_that_the_source_names_are_computed(short):
         gnbv.run("smoke", utility=by_another_name, set=short)
 
 
-def test_what_raises_ends_the_run_with_its_place_and_a_complete_record(short):
-    def raises(views):
-        raises.calls = getattr(raises, "calls", 0) + 1
-        if raises.calls == 3:
-            raise ValueError("too far")
-        return views["path_m"]
+def raises(views):
+    raises.calls = getattr(raises, "calls", 0) + 1
+    if raises.calls == 3:
+        raise ValueError("too far")
+    return views["path_m"]
 
+
+def test_what_raises_ends_the_run_with_its_place_and_a_complete_record(short):
     with pytest.raises(gnbv.UtilityFailed) as failed:
         gnbv.run("smoke", utility=raises, set=short)
     assert "ValueError: too far" in failed.value.traceback

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/limits/ceiling.hpp"
-#include "bench/score/coverage_curve.hpp"
 #include "bench/score/cloud_metrics.hpp"
+#include "bench/score/coverage_curve.hpp"
 #include "sim/core/error.hpp"
 #include "tools/mission/start_pose.hpp"
 

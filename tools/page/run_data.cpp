@@ -8,7 +8,6 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/page/packs.hpp"
 #include "tools/run/file_names.hpp"
-#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
