@@ -1,5 +1,5 @@
 // Arrays of numbers in one block of bytes, and how the page's JSON names them: the type, the shape
-// and the place of each. web/src/page.ts puts a typed array in the place of such a name.
+// and the place of each. tools/web/src/page.ts puts a typed array in the place of such a name.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // All that the program writes into a page. A struct is an object of the page's JSON, its Arrays lie
-// in the block of bytes beside it. The page's TypeScript has the same types: web/types.mjs makes
-// them of this file when the page is bundled.
+// in the block of bytes beside it. The page's TypeScript has the same types: tools/web/types.mjs
+// makes them of this file when the page is bundled.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The page that report.cpp fills, as the build bundled it from tools/page/web, and text that goes
+// The page that report.cpp fills, as the build bundled it from tools/web, and text that goes
 // into a page and stays text there.
 #pragma once
 

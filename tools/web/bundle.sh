@@ -10,7 +10,7 @@ mkdir -p "$1"
 cd "$1"
 
 without() {  # without REASON: of one line
-  echo "tools/page/web/bundle.sh: gnbv is built without the page of gnbv report: $1" >&2
+  echo "tools/web/bundle.sh: gnbv is built without the page of gnbv report: $1" >&2
   # untouched when it is so already, so that nothing is compiled again
   cmp -s - missing.txt <<<"$1" || echo "$1" >missing.txt
   for part in bundle.js bundle.css; do
@@ -34,7 +34,7 @@ if ! cmp -s package-lock.json node_modules/installed-package-lock.json; then
   cp package-lock.json node_modules/installed-package-lock.json
 fi
 
-node "$source/types.mjs" "$source/../page_data.hpp" >src/data.ts
+node "$source/types.mjs" "$source/../page/page_data.hpp" >src/data.ts
 node_modules/.bin/esbuild src/main.ts --bundle --minify --format=iife --target=es2022 \
   --charset=ascii --legal-comments=inline --log-level=warning --outfile=bundle.js
 node_modules/.bin/esbuild src/report.css --bundle --minify --log-level=warning \
