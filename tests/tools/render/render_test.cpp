@@ -118,6 +118,17 @@ TEST(Render, BallsAndDotsAppearWhereTheProjectionSays) {
   }
 }
 
+TEST(Render, ProjectionMatchesThePinholeFormula) {
+  const RenderView view = view_from({-10.0, 0.0, 0.0}, Vec3::Zero(), 200, 100);
+  const double f_px = 50.0 / std::tan(0.5 * view.fov_y_rad);
+  const auto p = project(view, {0.0, 1.0, 2.0});
+  ASSERT_TRUE(p.has_value());
+  EXPECT_NEAR(p->x(), 100.0 - f_px * 0.1, 1e-9);  // +y is left when looking along +x
+  EXPECT_NEAR(p->y(), 50.0 - f_px * 0.2, 1e-9);
+  EXPECT_NEAR(p->z(), 10.0, 1e-9);
+  EXPECT_FALSE(project(view, {-11.0, 0.0, 0.0}).has_value());
+}
+
 TEST(Render, SameSceneGivesSameBytes) {
   RenderScene scene;
   scene.surfaces.push_back(quad(0.0, 1.0, kRed));
