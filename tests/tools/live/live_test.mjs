@@ -126,7 +126,7 @@ try {
       complaints.push(parameters.entry.text + parameters.entry.url);
     }
   });
-  const has = (views) => browser.until(`window.gnbv && gnbv.views(0) === ${views}`);
+  const has = (views) => browser.until(`window.gnbv?.scenes[0].flight.n === ${views}`);
   while ((await ask(`${growing.url}views`)).body.trim() !== "3") await sleep(100);
   await browser.call("Page.navigate", { url: growing.url });
   await has(3);

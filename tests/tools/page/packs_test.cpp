@@ -186,8 +186,8 @@ TEST(CloudPack, APointIsThereAfterTheViewThatBroughtIt) {
 
 TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
   SurfaceReference reference;
-  reference.outside = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
-  reference.raw = reference.outside;
+  reference.counted = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
+  reference.raw = reference.counted;
   RunCloud cloud{.points_world_m = random_points(5000, 2.0F, 2),
                  .profile_points = 700,
                  .view_points = {900, 900, 3100, 5000}};
@@ -199,7 +199,7 @@ TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
   const std::vector<std::uint16_t> until = views_until_found(voxels, cloud);
   for (std::size_t n = 0; n < curve.size(); ++n) {
     const auto found = std::count_if(until.begin(), until.end(), [&](auto u) { return u <= n; });
-    EXPECT_EQ(static_cast<double>(found) / static_cast<double>(until.size()), curve[n].outside[0]);
+    EXPECT_EQ(static_cast<double>(found) / static_cast<double>(until.size()), curve[n].counted[0]);
   }
   EXPECT_GT(std::count(until.begin(), until.end(), kNeverFound), 0);
   // what came after the last view counts to it
@@ -212,14 +212,14 @@ TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
 
 TEST(TrueSurface, IsAsFineAsThePageHasRoomFor) {
   SurfaceReference reference;
-  reference.outside = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
+  reference.counted = at_all_sizes(voxels_of(random_points(2000, 2.0F, 1), 0.05));
   for (std::size_t size = 0; size < 3; ++size) {
-    const std::size_t count = reference.outside[size].size();
+    const std::size_t count = reference.counted[size].size();
     EXPECT_EQ(true_voxels(reference, count).size_m, kCoverageSizes_m[size]);
   }
-  EXPECT_TRUE(true_voxels(reference, reference.outside[2].size() - 1).codes.empty());
+  EXPECT_TRUE(true_voxels(reference, reference.counted[2].size() - 1).codes.empty());
   // an index beyond 16 bits at 0.05 m
-  reference.outside = at_all_sizes(voxels_of(std::vector<Vec3f>{{2000, 0, 0}}, 0.05));
+  reference.counted = at_all_sizes(voxels_of(std::vector<Vec3f>{{2000, 0, 0}}, 0.05));
   EXPECT_EQ(true_voxels(reference, 10).size_m, 0.10);
 }
 
@@ -360,7 +360,9 @@ TEST_F(DecisionPack, HoldsEachCandidateWithItsReasonAndTerms) {
   plan.candidates[0].rejected = Rejection::collision;
   plan.candidates[1].score = {.value = 9.0, .information = 8.0, .distance = 0.5};
   plan.chosen = {1};
-  Plan other = plan;
+  Plan other = plan;  // a burst
+  other.candidates[1].covers = 7;
+  other.candidates[2].covers = 5;
   other.chosen = {2};
   keep(std::vector{plan, other});
   const auto packed = pack_candidates(record_, 10'000, arrays_);
@@ -370,10 +372,12 @@ TEST_F(DecisionPack, HoldsEachCandidateWithItsReasonAndTerms) {
   constexpr auto kCollision = static_cast<double>(Rejection::collision);
   EXPECT_EQ(numbers(packed->kind, arrays_),
             (Numbers{kCollision, page::kChosenCandidate, page::kValidCandidate, kCollision,
-                     page::kValidCandidate, page::kChosenCandidate}));
+                     page::kValidCandidate, page::kKeptCandidate}));
   const Numbers terms = numbers(packed->terms, arrays_);
   ASSERT_EQ(terms.size(), 20U);  // of four that were not rejected
   EXPECT_EQ(Numbers(terms.begin(), terms.begin() + 5), (Numbers{9, 8, 0, 0, 0.5}));
+  EXPECT_EQ(terms[10], 7.0);
+  EXPECT_EQ(terms[15], 5.0);
   const Numbers angles = numbers(packed->angles, arrays_);
   EXPECT_EQ(Numbers(angles.begin() + 2, angles.begin() + 4), (Numbers{-1.5, 0.25}));
   EXPECT_THROW(pack_candidates(record_, 10, arrays_), BadInput);

@@ -21,6 +21,44 @@ export function jsonLines(run, name) {
   return text === "" ? [] : text.split("\n").map((line) => JSON.parse(line));
 }
 
+/** What tests ask the page's own objects, of a run by its number, at the replay's place. */
+const kQuestions = `Object.assign(gnbv, {
+  seek: (views) => gnbv.clock.seek(views),
+  views: (run) => gnbv.scenes[run].flight.n,
+  points: (run) => gnbv.scenes[run].model.densities.count.reduce((a, b) => a + b, 0),
+  rays: (run) => gnbv.scenes[run].candidates.rayEnds.flatMap((end) => end.toArray()),
+  found: (run) => { // of the true surface
+    const { surface } = gnbv.scenes[run];
+    const { found: after, now } = surface;
+    const found = after.filter((n) => n <= now).length;
+    const onlyOther = [...after.keys()]
+      .filter((i) => after[i] > now && surface.isFoundByOther(i)).length;
+    return { found, onlyOther, missed: after.length - found - onlyOther };
+  },
+  candidates: (run) => gnbv.scenes[run].candidates.now.length,
+  believed: (run, kind) => gnbv.scenes[run].believed.cells(kind).size,
+  frustum: (run, view) => { // ends of its lines
+    const { object, perView } = gnbv.scenes[run].frusta;
+    return [...object.geometry.getAttribute("position").array
+      .slice(3 * view * perView, 3 * (view + 1) * perView)];
+  },
+  point: (run, i) => { // and the view that brought it
+    const { points, cloudAfter } = gnbv.scenes[run].model;
+    return 3 * i >= points.length ? null
+      : [...points.subarray(3 * i, 3 * i + 3), cloudAfter.filter((end) => end <= i).length - 1];
+  },
+  seenBy: (run, [x, y, z]) => {
+    const place = gnbv.scenes[run].vehicle.position.clone().set(x, y, z);
+    return gnbv.viewsThatSaw(place, gnbv.scenes[run]);
+  },
+  plan: (run) => gnbv.scenes[run].plan?.places.length ?? 0,
+  camera: () => gnbv.stage.camera.position.toArray(),
+  pose: (run) => { // x, y, z, yaw of the vehicle as it is drawn
+    const { position: p, quaternion: q } = gnbv.scenes[run].vehicle;
+    return [p.x, p.y, p.z, 2 * Math.atan2(q.z, q.w)];
+  },
+})`;
+
 export class Page {
   complaints = [];
   requests = [];
@@ -51,6 +89,7 @@ export class Page {
     await this.browser.call("Page.navigate", { url: "about:blank" });
     await this.browser.call("Page.navigate", { url: this.url + hash });
     await this.until("!!window.gnbv");
+    await this.is(`${kQuestions}, true`);
     await this.drawn();
   }
 

@@ -33,9 +33,9 @@ async function gistIsLikeTheWhole() {
   for (const layers of ["cloud,structure,path", "found,missed,structure"]) {
     await page.go(`#layers=${layers}`);
     const gist = await page.cells();
-    assert.equal((await page.is("gnbv.pictures()")).whole, 0);
+    assert.equal((await page.is("gnbv.stage.detail.drawnSoFar")).whole, 0);
     await page.is("[held.splice(0), held = null][0].forEach((call) => call())");
-    await page.until("gnbv.pictures().whole > 0");
+    await page.until("gnbv.stage.detail.drawnSoFar.whole > 0");
     const whole = await page.cells();
     const drawn = different(whole);
     assert.ok(drawn > 0.01 * whole.length, `${drawn} cells of ${whole.length}: ${layers}`);
@@ -72,19 +72,30 @@ async function decisionsAreTold() {
   assert.equal((await page.textOf(".layers label")).includes("Frontiers"), hasFrontiers);
   await page.go("#layers=candidates,unknown,frontiers");
   const range_m = await page.is("Math.max(...gnbv.data.runs[0].cameras.map((c) => c.range_m))");
-  let voxels = 0;
+  let [voxels, bursts] = [0, 0];
   for (let n = 1; n <= last; ++n) {
     await page.seek(n);
     const [legend, why] = [await page.textOf(".legend"), await page.textOf(".why")];
     for (const [run, folder] of runs.entries()) {
       const view = viewAt(run, n);
-      const all = jsonLines(folder, "candidates.jsonl").filter((c) => c.iteration === view);
+      // any view of a burst has the decision of its first
+      const number = Number(csv(folder, "iterations.csv")[view].plan_view ?? 1);
+      const first = view + 1 - number;
+      const all = jsonLines(folder, "candidates.jsonl").filter((c) => c.iteration === first);
       assert.equal(await page.is(`gnbv.candidates(${run})`), all.length, `view ${n}`);
+      const kept = all.filter((c) => c.chosen && c.covers !== undefined);
+      if (kept.length > 0) {
+        const burst = `${number} of ${kept.length} of the burst planned at view ${first + 1}: `;
+        assert.ok(why.includes(`View ${burst}`), why);
+        const row = await page.textOf(".why .ours > *"); // a cell a line
+        assert.ok(row.includes(`${number}, this view\n${kept[number - 1].covers}`), row);
+        bursts += 1;
+      }
       for (const { rejected } of all) if (rejected) assert.ok(why.includes(words(rejected)), why);
       const counts = [];
       for (const kind of ["unknown", "frontier", "looked_at"]) {
-        counts.push(await page.is(`gnbv.data.runs[${run}].beliefs.${kind}?.counts[${view}] ?? 0`));
-        const drawn = await page.is(`gnbv.believed(${run}, "${kind}").length`);
+        counts.push(await page.is(`gnbv.data.runs[${run}].beliefs.${kind}?.counts[${first}] ?? 0`));
+        const drawn = await page.is(`gnbv.believed(${run}, "${kind}")`);
         assert.equal(drawn, counts.at(-1), `view ${n}: ${kind}`);
         voxels += drawn;
       }
@@ -106,6 +117,7 @@ async function decisionsAreTold() {
       .filter((reason) => reason.title.length < 20).length`), 0);
   }
   assert.ok(voxels > 50, `${voxels}`);
+  assert.ok(bursts > 0 || !runs.includes("bursts"));
 }
 
 /** The pyramid of a view stands where the view is; a view tells what it saw, a point who saw it. */
@@ -136,14 +148,14 @@ async function pointingTells() {
 /** The line of the surface has the truth to its left alone and the surface to its right alone. */
 async function lineParts() {
   await page.go("#layers=structure");
-  await page.until("gnbv.pictures().whole > 0");
+  await page.until("gnbv.stage.detail.drawnSoFar.whole > 0");
   const alone = await page.cells();
   await page.go("#layers=structure,surface,cloud");
   assert.doesNotMatch(await page.textOf(".legend"), /points:/);
   const at = async (share) => {
-    const { whole } = await page.is("gnbv.pictures()");
+    const { whole } = await page.is("gnbv.stage.detail.drawnSoFar");
     await page.set(".swipe input", share);
-    await page.until(`gnbv.pictures().whole > ${whole}`);
+    await page.until(`gnbv.stage.detail.drawnSoFar.whole > ${whole}`);
     return page.cells();
   };
   const [surface, half, truth] = [await at(0), await at(0.5), await at(1)];
@@ -194,14 +206,14 @@ async function legendsTell() {
 /** Each run is told apart in every plot; seeds of one configuration may be their mean. */
 async function plotsTellRunsApart() {
   await page.go();
-  for (const dashes of await page.is(`[...document.querySelectorAll(".plot .screen")].map((svg) =>
+  for (const dashes of await page.is(`[...document.querySelectorAll(".plot-place svg")].map((svg) =>
     [...svg.querySelectorAll("path[stroke-dasharray]")].map((path) =>
       path.getAttribute("stroke-dasharray") + path.getAttribute("stroke")))`)) {
     assert.ok(new Set(dashes).size >= Math.min(dashes.length, isAlone ? 1 : 2), `${dashes}`);
   }
   const atFrontiers = runs.filter((run) =>
     readFileSync(join(run, "iterations.csv"), "utf8").includes(",fvs,"));
-  assert.equal(await page.visible(".screen .lane"), isAlone ? 0 : atFrontiers.length);
+  assert.equal(await page.visible(".lane"), isAlone ? 0 : atFrontiers.length);
   const yamls = runs.map((run) => readFileSync(join(run, "scenario.yaml"), "utf8"));
   const hasSeeds = new Set(yamls).size > 1
     && new Set(yamls.map((yaml) => yaml.replace(/^seed:.*$/m, ""))).size === 1;
@@ -295,8 +307,8 @@ async function fitsAnyPaper() {
   // A4 is 186 mm between its margins: plots are vectors, nothing is there to click
   await page.shape(703, 1032, "print");
   assert.ok(await page.is("document.documentElement.scrollWidth") <= 703);
-  assert.ok(await page.visible(".plot .paper") >= 3);
-  assert.equal(await page.visible("button:not(.picture), select, input, .plot .screen"), 0);
+  assert.ok(await page.visible(".plot-place svg") >= 3);
+  assert.equal(await page.visible("button:not(.picture), select, input"), 0);
   assert.equal((await page.textOf(".plot:first-child :is(.plot-title, .plot-choice)"))
     .replaceAll("\n", ""), "Coverage, 0.05 m");
   await page.shape(390, 844);
@@ -314,7 +326,7 @@ async function printsAtOnce() {
   await page.browser.call("Page.navigate", { url: "about:blank" });
   await page.browser.call("Page.navigate", { url: page.url });
   await page.until("!!window.gnbv");
-  assert.equal((await page.is("gnbv.pictures()")).gist, 1);
+  assert.equal((await page.is("gnbv.stage.detail.drawnSoFar")).gist, 1);
   const [ratio, pixels, colours] = await page.is(`(() => {
     dispatchEvent(new Event("beforeprint"));
     const canvas = document.querySelector(".stage canvas");

@@ -42,10 +42,10 @@ try {
     await browser.until("!!window.gnbv");
     await drawn();
   });
-  await browser.until("gnbv.pictures().whole > 0");
+  await browser.until("gnbv.stage.detail.drawnSoFar.whole > 0");
   const slider = "document.querySelector('.transport input[type=range]')";
   const last = Number(await browser.evaluate(`${slider}.max`));
-  const before = await browser.evaluate("gnbv.pictures()");
+  const before = await browser.evaluate("gnbv.stage.detail.drawnSoFar");
   await timed("20 steps of the slider", async () => {
     for (let i = 1; i <= 20; ++i) {
       await browser.evaluate(`${slider}.value = ${Math.round(i * last / 20)};
@@ -53,7 +53,7 @@ try {
       await drawn();
     }
   });
-  const after = await browser.evaluate("gnbv.pictures()");
+  const after = await browser.evaluate("gnbv.stage.detail.drawnSoFar");
   console.log(`pictures meanwhile: ${after.gist - before.gist} of the gist, `
     + `${after.whole - before.whole} whole`);
 } finally {

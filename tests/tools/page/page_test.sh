@@ -37,6 +37,10 @@ cp -R seed1 again
 layers() { node "$here/page_layers_test.mjs" "$CHROMIUM" "$@"; }
 layers equal.html seed1 again
 layers lab.html lab
+"$gnbv" run smoke --quiet --frames --candidates --out bursts \
+  --set planner.fvs.entropy_threshold_nat=1 --set planner.termination.max_iterations=8 >/dev/null
+"$gnbv" report bursts --quiet -o bursts.html >/dev/null
+layers bursts.html bursts
 layers seeds.html seed1 seed2
 for test in page_test page_layers_test; do
   node "$here/$test.mjs" "$CHROMIUM" one.html "${evil}proposed"

@@ -1,14 +1,15 @@
 // Why this view: the candidates of the decision that chose it, with what became of each.
 import * as three from "three";
-import { colourOf, hex, isDark, onPage, ramp, rampGradient, reason } from "./colours";
+import { colourOf, cssOf, cssOnPage, isDark, onPage, ramp, rampGradient, reason } from "./colours";
 import type { CandidateData } from "./data";
 import { make, number, significant } from "./dom";
-import { rangeOf, type Flight } from "./flight";
-import { ViewMark, makeDots, makeLines, makeTube } from "./marks";
+import type { Flight } from "./flight";
+import { ViewMark, makeDots, makeLines, makeTube, numbersOf } from "./marks";
 import { tableOf, validWords } from "./panels";
 import type { Model } from "./surfaces";
 
-const kValid = 254; // of a candidate's kind, see page_data.hpp
+const kKept = 253; // of a candidate's kind, see page_data.hpp
+const kValid = 254;
 const kChosen = 255;
 const kTermCount = 5; // utility, information, density, prediction, distance
 const kBest = 5;
@@ -16,116 +17,122 @@ const kRays = [9, 7];
 
 interface Candidate {
   at: three.Vector3;
-  yaw: number;
-  pitch: number;
-  kind: number; // a reason of rejection, kValid or kChosen
+  way: three.Vector3; // in which it looks
+  kind: number; // a reason of rejection, kKept, kValid or kChosen
   terms: Float32Array | null; // of those that competed
 }
 
 export class CandidateMarks extends ViewMark {
   private view = -1; // whose decision it is
-  private now: Candidate[] = [];
+  now: Candidate[] = []; // those that are drawn
+  rayEnds: three.Vector3[] = []; // two a ray
+  private burst: Candidate[] = []; // its views, where it is one, in the order of their flight
+  private chosen: Candidate | undefined; // as this view
 
   /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
       private readonly data: CandidateData, private readonly missed_m: number) { super(); }
 
-  get count() { return this.now.length; } // drawn
-
-  /** The decision that chose the last of the first `n` views. */
+  /** The decision that chose the last of the first `n` views, perhaps with views before it. */
   protected parts(n: number): three.Object3D[] {
     this.view = n - 1;
-    this.now = n > 0 ? this.decision(n - 1) : [];
-    const hasChosen = this.now.some(({ kind }) => kind === kChosen);
-    return this.now.length === 0 ? [] : [...this.pins(), ...hasChosen ? [this.rays(n - 1)] : []];
+    this.now = n > 0 ? this.decision(this.flight.planOf(n) - 1) : [];
+    this.rayEnds = [];
+    this.burst = this.now.filter(({ kind }) => kind === kKept);
+    this.chosen = this.burst[this.flight.data.views.plan_view[n - 1] - 1]
+      ?? this.now.find(({ kind }) => kind === kChosen);
+    return this.now.length === 0 ? [] : [...this.pins(), ...this.chosen ? [this.rays(n - 1)] : []];
   }
 
   private decision(view: number): Candidate[] {
     const { begins, kind: kinds, points, angles, terms } = this.data;
-    const all: Candidate[] = [];
-    let term = begins[2 * view + 1];
-    for (let i = begins[2 * view]; i < begins[2 * view + 2]; ++i) {
-      const kind = kinds[i];
-      const at = kind >= kValid ? kTermCount * term++ : -1;
-      all.push({ at: new three.Vector3().fromArray(points, 3 * i), kind,
-        yaw: angles[2 * i], pitch: angles[2 * i + 1],
-        terms: at < 0 ? null : terms.subarray(at, at + kTermCount) });
-    }
-    return all;
+    let term = kTermCount * begins[2 * view + 1];
+    return Array.from(kinds.subarray(begins[2 * view], begins[2 * view + 2]), (kind, k) => {
+      const i = begins[2 * view] + k;
+      const [yaw, pitch] = angles.subarray(2 * i, 2 * i + 2);
+      const competed = kind >= kKept ? terms.subarray(term, term += kTermCount) : null;
+      return { at: new three.Vector3().fromArray(points, 3 * i), kind, terms: competed,
+        way: new three.Vector3(Math.cos(yaw) * Math.cos(pitch), Math.sin(yaw) * Math.cos(pitch),
+          -Math.sin(pitch)) };
+    });
   }
 
   private colourOf({ kind, terms }: Candidate): three.Color {
-    if (kind === kChosen) return new three.Color(colourOf("chosen"));
+    if (kind === kChosen || kind === kKept) return new three.Color(colourOf("chosen"));
     if (!terms) return onPage(reason(kind).light);
-    const values = this.now.filter((other) => other.terms).map((other) => other.terms![0]);
+    const values = this.now.flatMap((other) => other.terms?.[0] ?? []);
     const [low, high] = [Math.min(...values), Math.max(...values)];
     return ramp("score", (terms[0] - low) / (high - low || 1));
   }
 
-  /** A dot where each stands, and a line the way it looks; the chosen one on a rim, over all. */
+  /**
+   * A dot where each stands, and a line the way it looks; the chosen one on a rim, over all. A line
+   * leads to the views of a burst from the view before.
+   */
   private pins(): three.Object3D[] {
-    const extent = this.flight.workspace().size_m;
-    const isChosen = ({ kind }: Candidate) => kind === kChosen;
+    const { flight, now, burst, chosen } = this;
     const rim = new three.Color(isDark() ? 0x000000 : 0xffffff);
-    const colour = (candidate: Candidate) => this.colourOf(candidate);
-    return [
-      ...pinsOf(this.now.filter((c) => c.terms === null), 0.012 * extent, 4, 1.5, colour),
-      ...pinsOf(this.now.filter(({ kind }) => kind === kValid), 0.02 * extent, 8, 2.6, colour),
-      ...inFront(pinsOf(this.now.filter(isChosen), 0.045 * extent, 21, 9, () => rim), 8),
-      ...inFront(pinsOf(this.now.filter(isChosen), 0.045 * extent, 15, 5, colour), 9)];
+    const pinsOf = (all: Candidate[], length: number, dot_px: number, line_px: number,
+        colour = (candidate: Candidate) => this.colourOf(candidate)) => {
+      const ends = all.flatMap(({ at, way }) =>
+        [at, at.clone().addScaledVector(way, length * flight.size_m)]);
+      const colours = all.map((candidate) => colour(candidate).toArray());
+      return [makeDots(numbersOf(all.map(({ at }) => at)), colours.flat(), dot_px),
+        makeTube(numbersOf(ends), colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
+    };
+    const before = flight.viewPose(Math.max(0, flight.planOf(this.view + 1) - 2)).p;
+    const legs = burst.flatMap(({ at }, i) => [i > 0 ? burst[i - 1].at : before, at]);
+    const ofBurst = burst.filter((candidate) => candidate !== chosen);
+    const theChosen = chosen ? [chosen] : [];
+    return [...pinsOf(now.filter(({ terms }) => !terms), 0.012, 4, 1.5),
+      ...pinsOf(now.filter(({ kind }) => kind === kValid), 0.02, 8, 2.6),
+      ...inFront([makeTube(numbersOf(legs), colourOf("chosen"), 1.5)], 6),
+      ...inFront(pinsOf(ofBurst, 0.03, 11, 3), 7),
+      ...inFront(pinsOf(theChosen, 0.045, 21, 9, () => rim), 8),
+      ...inFront(pinsOf(theChosen, 0.045, 15, 5), 9)];
   }
 
   /** Of the chosen view, up to the first voxel that held points before. */
   private rays(view: number): three.LineSegments {
     const { densities } = this.model;
     const known = this.model.voxelsKnown(view);
-    const positions: number[] = [];
-    const colours: number[] = [];
     const [hit, miss] = ["ray_hit", "ray_free"].map((name) =>
       new three.Color(colourOf(name)).toArray());
+    const colours: number[] = [];
     for (const { camera, T } of this.flight.camerasInWorld(view)) {
       const origin = new three.Vector3().setFromMatrixPosition(T);
       for (let i = 0; i < kRays[0] * kRays[1]; ++i) {
-        const share = [i % kRays[0], Math.floor(i / kRays[0])]
+        const [u, v] = [i % kRays[0], Math.floor(i / kRays[0])]
           .map((k, axis) => 2 * (k + 0.5) / kRays[axis] - 1);
-        const way = new three.Vector3(share[0] * Math.tan(camera.fov_x / 2),
-          share[1] * Math.tan(camera.fov_y / 2), 1).transformDirection(T);
+        const way = new three.Vector3(u * Math.tan(camera.fov_x / 2),
+          v * Math.tan(camera.fov_y / 2), 1).transformDirection(T);
         const length = densities?.firstHit(origin, way, camera.range_m, known) ?? camera.range_m;
         const isHit = length < camera.range_m;
-        const end = origin.clone().addScaledVector(way,
-          isHit ? length : Math.min(length, this.missed_m));
-        positions.push(...origin.toArray(), ...end.toArray());
+        this.rayEnds.push(origin, origin.clone().addScaledVector(way,
+          isHit ? length : Math.min(length, this.missed_m)));
         colours.push(...isHit ? [...hit, ...hit] : [...miss, ...miss]);
       }
     }
-    const rays = makeLines(positions, colours, 0.45);
-    rays.name = "rays";
-    return rays;
-  }
-
-  /** Where those of the present decision stand, x y z each. */
-  drawn(): number[] { return this.now.flatMap(({ at }) => at.toArray()); }
-
-  /** Ends of the chosen view's rays, x y z each. */
-  rayEnds(): number[] {
-    const rays = this.object.children.find((part) => part.name === "rays") as three.LineSegments;
-    return [...rays?.geometry.getAttribute("position").array ?? []];
+    return makeLines(numbersOf(this.rayEnds), colours, 0.45);
   }
 
   /** What the lines of the present decision mean; the counts add up to all of its candidates. */
   kinds(): { colour: string; text: string; means: string; count: number;
     isRejected?: boolean }[] {
-    const reasons = new Map<number, number>();
-    for (const { kind } of this.now) reasons.set(kind, (reasons.get(kind) ?? 0) + 1);
-    const range_m = rangeOf(this.flight.data.cameras);
-    return [...reasons].sort(([a], [b]) => b - a).map(([kind, count]) =>
-      kind === kChosen ? { colour: hex(colourOf("chosen")), text: "chosen view, and its rays",
-        means: "Rays end at the first voxel that held points before; those that meet none are pale, "
-          + `and drawn to ${number(Math.min(this.missed_m, range_m), 1)} m`, count }
-      : kind === kValid ? { colour: rampGradient("score"),
-        text: "other valid ones, low to high utility",
+    const rays = "Rays end at the first voxel that held points before; those that meet none are "
+      + `pale, and drawn to ${number(Math.min(this.missed_m, this.flight.range_m), 1)} m`;
+    const counts = [...Map.groupBy(this.now, ({ kind }) => kind)].sort(([a], [b]) => b - a);
+    return counts.map(([kind, { length: count }]) =>
+      kind === kChosen ? { colour: cssOf("chosen"), text: "chosen view, and its rays",
+        means: rays, count }
+      : kind === kKept ? { colour: cssOf("chosen"),
+        text: "views of the burst along their line, rays of this one",
+        means: "Each is kept for points that those before do not see; they are flown one after "
+          + `the other without another decision. ${rays}`, count }
+      : kind === kValid ? { colour: rampGradient("score"), text: this.burst.length > 0
+        ? "other valid ones, few to many points covered" : "other valid ones, low to high utility",
         means: "They may be flown to, and competed with the chosen one", count }
-      : { colour: `#${onPage(reason(kind).light).getHexString()}`, text: reason(kind).words,
+      : { colour: cssOnPage(reason(kind).light), text: reason(kind).words,
         means: reason(kind).means, count, isRejected: true });
   }
 
@@ -136,7 +143,10 @@ export class CandidateMarks extends ViewMark {
     const before = this.now.length - v.candidates[view];
     const competed = this.now.filter(({ terms }) => terms).length;
     const rejected = this.kinds().filter(({ isRejected }) => isRejected);
-    return [validWords(this.flight, view),
+    const burst = this.burst.length === 0 ? ""
+      : `View ${number(v.plan_view[view])} of ${number(this.burst.length)} of the burst planned at `
+        + `view ${number(this.flight.planOf(view + 1))}: `;
+    return [burst, validWords(this.flight, view),
       before > 0 ? `, and ${number(competed - v.valid[view])} of ${number(before)} sampled before`
         : "",
       ...rejected.flatMap(({ text, means, count }) =>
@@ -146,36 +156,31 @@ export class CandidateMarks extends ViewMark {
   /** The decision in words: its rejections, and the best of those that competed. */
   table(): HTMLElement {
     if (this.now.length === 0) return make("p", { class: "fine" }, "No decision chose this view.");
-    const best = this.now.filter((candidate) => candidate.terms)
+    if (this.burst.length > 0) return this.tableOfBurst();
+    const best = this.now.filter(({ terms }) => terms)
       .sort((a, b) => b.terms![0] - a.terms![0]).slice(0, kBest);
-    const row = (candidate: Candidate, rank: number) => make("tr",
-      { class: candidate.kind === kChosen ? "ours" : "" },
-      make("td", {}, candidate.kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`),
-      ...Array.from(candidate.terms!, (value) => make("td", { class: "number" },
-        significant(value))));
+    const row = ({ kind, terms }: Candidate, rank: number) => [
+      kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`,
+      ...Array.from(terms!, significant)];
     return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
       best.length === 0 ? "" : tableOf("", ["", "Utility", "Information", "Density", "Prediction",
-        "Distance factor"], (column) => column > 0, best.map(row)));
+        "Distance factor"], (column) => column > 0, best.map(row),
+      (rank) => best[rank].kind === kChosen));
+  }
+
+  private tableOfBurst(): HTMLElement {
+    const isThis = (row: number) => this.burst[row] === this.chosen;
+    return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
+      tableOf("", ["", "Points covered"], (column) => column > 0, this.burst.map(({ terms }, i) =>
+        [isThis(i) ? `${i + 1}, this view` : `${i + 1}`, number(terms![0])]), isThis));
   }
 }
 
-function pinsOf(all: Candidate[], length: number, dot_px: number, line_px: number,
-    colourOf: (candidate: Candidate) => three.Color): [three.Points, three.Object3D] {
-  const ends = all.flatMap(({ at, yaw, pitch }) => [...at.toArray(),
-    at.x + length * Math.cos(yaw) * Math.cos(pitch),
-    at.y + length * Math.sin(yaw) * Math.cos(pitch), at.z - length * Math.sin(pitch)]);
-  const colours = all.map((candidate) => colourOf(candidate).toArray());
-  return [makeDots(all.flatMap(({ at }) => at.toArray()), colours.flat(), dot_px),
-    makeTube(ends, colours.flatMap((rgb) => [...rgb, ...rgb]), line_px)];
-}
-
 /** Over everything, in that order. */
-function inFront(parts: three.Object3D[], order: number): three.Object3D[] {
+function inFront(parts: (three.Points | three.Mesh)[], order: number): three.Object3D[] {
   for (const part of parts) {
     part.renderOrder = order;
-    const material = (part as three.Mesh).material as three.Material;
-    material.depthTest = false;
-    material.transparent = true; // drawn after what is opaque
+    Object.assign(part.material, { depthTest: false, transparent: true }); // after what is opaque
   }
   return parts;
 }

@@ -17,14 +17,12 @@ export class Densities {
   private readonly cells = new Map<number, number>();
 
   constructor(readonly voxels: VoxelData) {
-    const { index } = voxels;
+    const { index, gains_after } = voxels;
     this.count = new Uint32Array(index.length / 3);
-    for (let i = 0; i < this.count.length; ++i) {
-      this.cells.set(keyOf(index[3 * i], index[3 * i + 1], index[3 * i + 2]), i);
-    }
-    this.seek(voxels.gains_after.length - 1);
-    const sorted = Uint32Array.from(this.count).sort();
-    this.most = sorted[Math.floor(0.98 * (sorted.length - 1))] || 1;
+    this.count.forEach((_, i) =>
+      this.cells.set(keyOf(index[3 * i], index[3 * i + 1], index[3 * i + 2]), i));
+    this.seek(gains_after.length - 1);
+    this.most = this.count.toSorted()[Math.floor(0.98 * (this.count.length - 1))] || 1;
   }
 
   /** To the counts after `views` views. */
@@ -42,9 +40,12 @@ export class Densities {
     }
   }
 
-  /**
-   * How far a ray goes until it meets one of the first `known` voxels; `far` where it meets none.
-   */
+  /** Middle of a voxel along an axis, in metres. */
+  middle(voxel: number, axis: number) {
+    return this.voxels.size_m * (this.voxels.index[3 * voxel + axis] + 0.5);
+  }
+
+  /** How far a ray goes until it meets one of the first `known` voxels; `far` if it meets none. */
   firstHit(from: Vector3, way: Vector3, far: number, known: number): number {
     const { size_m } = this.voxels;
     for (let t = size_m; t < far; t += 0.4 * size_m) {

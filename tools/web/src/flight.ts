@@ -1,7 +1,8 @@
 // One run as a function of effort: how many views there were, and where the vehicle was.
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Box3, MathUtils, Matrix4, Quaternion, Vector3 } from "three";
 import type { Clock, Effort } from "./clock";
 import type { CameraData, RunData } from "./data";
+import { number } from "./dom";
 
 export interface Pose {
   p: Vector3; // metres, world
@@ -19,53 +20,66 @@ export function lastAtMost(values: ArrayLike<number>, x: number): number {
   return low;
 }
 
-/** Of several cameras how far they see. */
-export const rangeOf = (cameras: CameraData[]) =>
-  Math.max(...cameras.map(({ range_m }) => range_m));
+/** How far along it is from one number to another, within [0, 1]. */
+const shareOf = (at: number, from: number, to: number) =>
+  (to > from ? MathUtils.clamp((at - from) / (to - from), 0, 1) : 0);
 
 export class Flight {
   readonly count: number; // of views
   readonly points: Float32Array | null; // of the flown path
+  readonly workspace: Box3; // in which the vehicle may fly
+  readonly size_m: number; // from corner to corner of it
+  readonly range_m: number; // of the camera that sees farthest
   private readonly efforts: Record<Effort, number[]>; // after n views
   private readonly times: number[]; // of the mission, likewise
 
-  constructor(readonly data: RunData, readonly index: number) {
-    const { views, path } = data;
+  constructor(readonly data: RunData, readonly index: number, private readonly clock: Clock) {
+    const { views, path, cameras, workspace_min, workspace_max } = data;
     this.count = views.time.length;
-    this.efforts = {
-      views: Array.from({ length: this.count + 1 }, (_, n) => n),
-      metres: [0, ...views.metres],
-      seconds: [0, ...views.seconds],
-    };
+    this.efforts = { views: [...Array(this.count + 1).keys()], metres: [0, ...views.metres],
+      seconds: [0, ...views.seconds] };
     this.points = path && path.points;
     this.times = [data.profile_end_s ?? path?.time[0] ?? views.time[0] ?? 0, ...views.time];
+    this.workspace = new Box3(new Vector3(...workspace_min), new Vector3(...workspace_max));
+    this.size_m = this.workspace.min.distanceTo(this.workspace.max);
+    this.range_m = Math.max(...cameras.map(({ range_m }) => range_m));
   }
 
   /** After `n` views. */
   effort(n: number, effort: Effort): number { return this.efforts[effort][n]; }
   last(effort: Effort): number { return this.efforts[effort][this.count]; }
 
-  /** The first view may be reached at an effort of 0: before it the clock is below 0. */
-  viewsAt(clock: Clock): number {
-    if (clock.at < 0) return 0;
-    return Math.max(0, lastAtMost(this.efforts[clock.effort], clock.at + 1e-9));
+  /** Of the first `n` views those up to the first one of the last one's plan. */
+  planOf(n: number): number { return n === 0 ? 0 : n + 1 - this.data.views.plan_view[n - 1]; }
+
+  /** "view 3 of the burst planned at view 41"; empty where the view was decided alone. */
+  burstWords(view: number): string {
+    const { plan_view } = this.data.views;
+    const isAlone = plan_view[view] === 1 && (plan_view[view + 1] ?? 1) === 1;
+    return isAlone ? "" : `view ${number(plan_view[view])} of the burst planned at view `
+      + number(this.planOf(view + 1));
   }
 
-  /** Of the mission, in seconds; between two views as far as the effort between them is spent. */
-  timeAt(clock: Clock): number {
-    const n = this.viewsAt(clock);
+  /** How many views there were by now: the clock is below 0 before the first one. */
+  get n(): number {
+    const { at, effort } = this.clock;
+    return at < 0 ? 0 : Math.max(0, lastAtMost(this.efforts[effort], at + 1e-9));
+  }
+
+  /** Now of the mission, in seconds; between two views as far as the effort between is spent. */
+  time(): number {
+    const { n, clock: { at, effort } } = this;
     if (n === this.count) return this.times[n];
-    const [from, to] = [this.effort(n, clock.effort), this.effort(n + 1, clock.effort)];
-    const share = to > from ? Math.min(1, Math.max(0, (clock.at - from) / (to - from))) : 0;
-    return this.times[n] + share * (this.times[n + 1] - this.times[n]);
+    const share = shareOf(at, this.effort(n, effort), this.effort(n + 1, effort));
+    return MathUtils.lerp(this.times[n], this.times[n + 1], share);
   }
 
   /** At a view, the pose that iterations.csv records; between views, the flown one. */
-  poseAt(clock: Clock): Pose | null {
-    const n = this.viewsAt(clock);
-    const isBetween = n < this.count && clock.at > this.effort(n, clock.effort) + 1e-6;
+  pose(): Pose | null {
+    const { n, clock: { at, effort } } = this;
+    const isBetween = n < this.count && at > this.effort(n, effort) + 1e-6;
     if (n > 0 && !(isBetween && this.points)) return this.viewPose(n - 1);
-    return this.flownPose(this.timeAt(clock)) ?? (this.count > 0 ? this.viewPose(0) : null);
+    return this.flownPose(this.time()) ?? (this.count > 0 ? this.viewPose(0) : null);
   }
 
   /** The cameras as the gimbal had them at a view; fixed ones as ever. */
@@ -91,39 +105,28 @@ export class Flight {
       q: new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw) };
   }
 
-  /** Of the box in which the vehicle may fly. */
-  workspace(): { centre: Vector3; size_m: number } {
-    const min = new Vector3(...this.data.workspace_min);
-    const max = new Vector3(...this.data.workspace_max);
-    return { centre: min.clone().add(max).multiplyScalar(0.5), size_m: min.distanceTo(max) };
-  }
-
   /** Samples of the path flown by then. */
   samplesBy(time: number): number {
     return this.data.path ? lastAtMost(this.data.path.time, time + 1e-4) + 1 : 0;
   }
 
-  /** The first sample that belongs to the views, not to the profile. */
-  firstViewSample(): number {
-    const begin = this.data.views_begin_s ?? this.data.views.time[0];
-    return begin === undefined ? Infinity : this.samplesBy(begin);
+  /** How many samples belong to the profile, not to the views. */
+  profileSamples(): number {
+    const begin = this.data.views_begin_s ?? this.data.views.time[0] ?? Infinity;
+    return this.samplesBy(begin);
   }
 
-  /** Where the vehicle is before the first view, x y z; empty where no path was recorded. */
-  profileEnd(): number[] { return this.flownPose(this.times[0])?.p.toArray() ?? []; }
+  /** Where the vehicle is before the first view; null where no path was recorded. */
+  profileEnd(): Vector3 | null { return this.flownPose(this.times[0])?.p ?? null; }
 
   private flownPose(at: number): Pose | null {
     if (!this.data.path) return null;
     const { points, time, quaternion } = this.data.path;
     const i = Math.max(0, lastAtMost(time, at));
     const j = Math.min(i + 1, time.length - 1);
-    const step = time[j] - time[i];
-    const share = step > 0 ? Math.min(1, Math.max(0, (at - time[i]) / step)) : 0;
-    const sample = (k: number): Pose => ({
-      p: new Vector3().fromArray(points, 3 * k),
-      q: new Quaternion().fromArray(quaternion, 4 * k).normalize(),
-    });
-    const [from, to] = [sample(i), sample(j)];
-    return { p: from.p.lerp(to.p, share), q: from.q.slerp(to.q, share) };
+    const share = shareOf(at, time[i], time[j]);
+    const place = (k: number) => new Vector3().fromArray(points, 3 * k);
+    const turn = (k: number) => new Quaternion().fromArray(quaternion, 4 * k).normalize();
+    return { p: place(i).lerp(place(j), share), q: turn(i).slerp(turn(j), share) };
   }
 }

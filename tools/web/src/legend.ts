@@ -1,23 +1,21 @@
 // What everything in the 3D view means, in words beside its colour.
 import { kBelievedKinds } from "./believed";
-import { hex, look, rampGradient, type RampName } from "./colours";
-import { colourBar, make, measure, number, ofRun, type Child } from "./dom";
+import { cssOf, rampGradient, wordsOf, type RampName } from "./colours";
+import { colourBar, make, mark, measure, number, ofRun, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import { ofVoxels, type Colouring } from "./surfaces";
 
-function item(shape: "line" | "dot" | "bar", colour: string, text: string, ...more: Child[]) {
-  const swatch = make("i", { class: `mark ${shape}` });
-  swatch.style.background = colour;
-  return make("span", {}, swatch, text, ...more);
-}
+const item = (shape: "line" | "dot", colour: string, text: string, ...more: Child[]) =>
+  make("span", {}, mark(shape, colour), text, ...more);
 
 /** A thing as all pictures have it. */
 const thing = (shape: "line" | "dot", name: string, ...more: Child[]) =>
-  item(shape, hex(look(name).colour), look(name).words, ...more);
+  item(shape, cssOf(name), wordsOf(name), ...more);
+
+const rampMark = (ramp: RampName) => make("span", {}, mark("bar", rampGradient(ramp)));
 
 /** The colours of an order. */
-const orderItem = (first: string, last: string) =>
-  make("span", {}, first, item("bar", rampGradient("path"), ""), last);
+const orderItem = (first: string, last: string) => make("span", {}, first, rampMark("path"), last);
 
 /** One text where all runs have the same, else each run's beside the colour of the run. */
 function ofEach(scenes: RunScene[], texts: string[]): Child[] {
@@ -30,113 +28,100 @@ function ofEach(scenes: RunScene[], texts: string[]): Child[] {
   });
 }
 
+/** With as many decimals where there are any. */
+const shortly = (decimals: number) => (value: number) =>
+  number(value, value % 1 === 0 ? 0 : decimals);
+
 /** A bar with what it stands for under it, or where runs differ in that each run's ends. */
-function amountItem(scenes: RunScene[], what: string, ends: string[][], unit: string,
-    ramp: RampName = "amount") {
-  if (new Set(ends.map((each) => each.join(" "))).size === 1) {
+function amountItem(scenes: RunScene[], what: string, ranges: [low: number, high: number][],
+    format: (value: number) => string, unit: string, ramp: RampName = "amount") {
+  const ends = ranges.map(([low, high]) => [low, (low + high) / 2, high].map(format));
+  if (new Set(ends.map(String)).size === 1) {
     return colourBar(rampGradient(ramp), what, ends[0], unit);
   }
-  return make("span", {}, what, item("bar", rampGradient(ramp), ""),
-    ...ofEach(scenes, ends.map((each) => `${each[0]} to ${each[2]}`)), ` ${unit}`);
+  return make("span", {}, what, rampMark(ramp),
+    ...ofEach(scenes, ends.map(([low, , high]) => `${low} to ${high}`)), ` ${unit}`);
 }
 
 function ofColouring(scenes: RunScene[], by: Colouring, things: string): HTMLElement {
-  const texts = (low: number, high: number, decimals: number) =>
-    [low, (low + high) / 2, high].map((value) => number(value, value % 1 === 0 ? 0 : decimals));
   if (by === "real") return item("dot", "#9a8f80", `${things}: camera colours`);
   if (by === "iteration") return orderItem(`${things}: found by first`, "last view");
   if (by === "height") {
-    const ends = scenes.map(({ model: { heights: [low, high] } }) =>
-      [low, (low + high) / 2, high].map((z) => number(z, 1)));
-    return amountItem(scenes, `${things}: height`, ends, "m");
+    return amountItem(scenes, `${things}: height`, scenes.map(({ model }) => model.heights),
+      (z) => number(z, 1), "m");
   }
   if (by === "error") {
     const measured = scenes.filter(({ flight }) => flight.data.cloud?.error);
     const clouds = measured.map(({ flight }) => flight.data.cloud!);
     const bar = amountItem(measured, `${things}: off the surface by`,
-      clouds.map(({ error_most_mm }) => texts(0, error_most_mm, 1)),
+      clouds.map(({ error_most_mm }) => [0, error_most_mm]), shortly(1),
       "mm or more; grey: not of the structure; median", "error");
     return make("span", {}, ...bar.childNodes, ...ofEach(measured,
       clouds.map(({ error_median_mm }) => measure(number(error_median_mm), "mm"))));
   }
-  const dense = scenes.flatMap(({ model: { densities } }) => densities ?? []);
+  const dense = scenes.filter(({ model }) => model.densities);
   if (dense.length === 0) return make("span", {}, "no voxels");
-  return amountItem(scenes.filter(({ model }) => model.densities), `${things}: density`,
-    dense.map(({ most }) => texts(0, most, most < 10 ? 1 : 0)),
-    `or more points a voxel of ${measure(number(dense[0].voxels.size_m, 2), "m")}`);
+  const most = dense.map(({ model }) => model.densities!.most);
+  const size_m = dense[0].model.densities!.voxels.size_m;
+  return amountItem(dense, `${things}: density`, most.map((high) => [0, high]),
+    shortly(Math.min(...most) < 10 ? 1 : 0),
+    `or more points a voxel of ${measure(number(size_m, 2), "m")}`);
 }
 
-/** Of the layers that are shown, after as many views as `viewsOf` says. */
-export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring,
-    viewsOf: (scene: RunScene) => number): HTMLElement[] {
+/** Of the layers that are shown, as things are now. */
+export function legendItems(scenes: RunScene[], layers: Layers, by: Colouring): HTMLElement[] {
   if (scenes.length === 0) return [];
-  return [...measuredItems(scenes, layers, by, viewsOf),
-    ...surfaceItems(scenes, layers, by, viewsOf),
-    ...flightItems(scenes, layers, scenes.some((scene) => viewsOf(scene) > 0)),
+  const grids = scenes.map(({ flight }) => measure(number(flight.data.grid_m), "m"));
+  // beside a surface nothing that was measured is drawn
+  const showsMeasured = scenes.some((scene) => !scene.isSwiped());
+  return [...showsMeasured ? measuredItems(scenes, layers, by) : [],
+    ...surfaceItems(scenes, layers, by),
+    showsMeasured && layers.structure && thing("dot", "structure"),
+    ...flightItems(scenes, layers),
     ...layers.candidates ? candidateItems(scenes) : [], ...believedItems(scenes),
-    make("span", {}, "grid",
-      ...ofEach(scenes, scenes.map(({ flight }) => measure(number(flight.data.grid_m), "m"))))];
+    make("span", {}, "grid", ...ofEach(scenes, grids))].filter((each) => each !== false);
 }
 
-// beside a surface nothing that was measured is drawn
-const showsMeasured = (scenes: RunScene[]) => scenes.some((scene) => !scene.isSwiped());
-
-function measuredItems(scenes: RunScene[], layers: Layers, by: Colouring,
-    viewsOf: (scene: RunScene) => number): HTMLElement[] {
-  if (!showsMeasured(scenes)) return [];
+function measuredItems(scenes: RunScene[], layers: Layers, by: Colouring) {
   const clouds = scenes.filter(({ flight }) => flight.data.cloud);
   const coloured = clouds.length > 0 ? clouds : scenes;
   const pale = scenes.some(({ model }) => model.isFaded) ? "pale " : "";
   const areOne = layers.cloud && layers.voxels && ofVoxels(by) === by && !pale;
-  return [
-    areOne ? ofColouring(coloured, by, "points, voxels") : null,
-    layers.cloud && !areOne ? ofColouring(coloured, by, `${pale}points`) : null,
-    layers.voxels && !areOne ? ofColouring(coloured, ofVoxels(by), "voxels") : null,
-    layers.cloud && scenes.some((scene) => scene.model.newPoints(viewsOf(scene)) > 0)
-      ? thing("dot", "new_points") : null].filter((each) => each !== null);
+  return [areOne && ofColouring(coloured, by, "points, voxels"),
+    layers.cloud && !areOne && ofColouring(coloured, by, `${pale}points`),
+    layers.voxels && !areOne && ofColouring(coloured, ofVoxels(by), "voxels"),
+    layers.cloud && scenes.some(({ model, flight }) => model.newPoints(flight.n) > 0)
+      && thing("dot", "new_points")];
 }
 
-function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring,
-    viewsOf: (scene: RunScene) => number): HTMLElement[] {
-  const items: HTMLElement[] = [];
-  const ofSurface = scenes.filter(({ surface }) => surface);
-  const sizes = () => [", voxels of", ...ofEach(ofSurface,
-    ofSurface.map(({ surface }) => measure(number(surface!.size_m, 2), "m")))];
-  if (ofSurface.length > 0 && layers.found) {
-    items.push(by === "iteration" ? orderItem("surface found by first", "last view")
-      : thing("dot", "found", ...sizes()));
-  }
-  if (ofSurface.length > 0 && layers.missed) {
-    const { colour, words } = look(by === "iteration" ? "missed_in_order" : "missed");
-    const isOver = ofSurface.every((scene) => viewsOf(scene) >= scene.flight.count);
-    items.push(item("dot", hex(colour), isOver ? words : "surface not found yet", ...sizes()));
-    if (scenes.some((scene) => scene.compared() > 0)) items.push(thing("dot", "only_other"));
-  }
-  if (layers.surface && scenes.some((scene) => scene.isSwiped())) {
-    items.push(make("span", {}, "left of the line the true structure, without its texture, right "
-      + "of it the surface made of the run's pictures"
-      + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : "")));
-  }
-  if (layers.structure && showsMeasured(scenes)) items.push(thing("dot", "structure"));
-  return items;
+function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring) {
+  const known = scenes.filter(({ surface }) => surface);
+  const [found, missed] = [layers.found, layers.missed].map((on) => on && known.length > 0);
+  const sizes = () => [", voxels of",
+    ...ofEach(known, known.map(({ surface }) => measure(number(surface!.size_m, 2), "m")))];
+  const isOver = known.every(({ flight }) => flight.n >= flight.count);
+  const missedLook = by === "iteration" ? "missed_in_order" : "missed";
+  return [found && (by === "iteration" ? orderItem("surface found by first", "last view")
+    : thing("dot", "found", ...sizes())),
+  missed && item("dot", cssOf(missedLook),
+    isOver ? wordsOf(missedLook) : "surface not found yet", ...sizes()),
+  missed && known.some(({ others }) => others.length > 0) && thing("dot", "only_other"),
+  scenes.some((scene) => scene.isSwiped()) && make("span", {}, "left of the line the true "
+    + "structure, without its texture, right of it the surface made of the run's pictures"
+    + (layers.cloud || layers.voxels ? "; points and voxels are not drawn beside them" : ""))];
 }
 
-function flightItems(scenes: RunScene[], layers: Layers, hasViews: boolean): HTMLElement[] {
-  const items: HTMLElement[] = [];
-  if (layers.path && hasViews) items.push(orderItem("path, views: first", "last"));
-  if (layers.frusta && hasViews) {
-    items.push(item("line", rampGradient("path"), "pyramid of each view"));
-  }
-  if (layers.profile || (layers.path && !hasViews)) items.push(thing("line", "profile"));
-  if (layers.plan && scenes.some((scene) => scene.plan)) items.push(thing("line", "plan"));
-  if (layers.vehicle) items.push(thing("dot", "hull", ", enlarged where it would be a speck"));
-  if (layers.vehicle && !layers.candidates && hasViews) {
-    const sights = scenes.map((scene) => scene.sight());
-    const lengths = sights.map(({ length_m }) => measure(number(length_m, 1), "m"));
-    items.push(thing("line", "camera", ...sights.every(({ isWhole }) => isWhole) ? []
-      : [" to", ...ofEach(scenes, lengths)]));
-  }
-  return items;
+function flightItems(scenes: RunScene[], layers: Layers) {
+  const hasViews = scenes.some(({ flight }) => flight.n > 0);
+  const sights = scenes.map((scene) => scene.sight());
+  const lengths = sights.map(({ length_m }) => measure(number(length_m, 1), "m"));
+  return [layers.path && hasViews && orderItem("path, views: first", "last"),
+    layers.frusta && hasViews && item("line", rampGradient("path"), "pyramid of each view"),
+    (layers.profile || (layers.path && !hasViews)) && thing("line", "profile"),
+    layers.plan && scenes.some((scene) => scene.plan) && thing("line", "plan"),
+    layers.vehicle && thing("dot", "hull", ", enlarged where it would be a speck"),
+    layers.vehicle && !layers.candidates && hasViews && thing("line", "camera",
+      ...sights.every(({ isWhole }) => isWhole) ? [] : [" to", ...ofEach(scenes, lengths)])];
 }
 
 /** Each kind once, with the counts of all runs. */
@@ -158,7 +143,7 @@ function believedItems(scenes: RunScene[]): HTMLElement[] {
   const shown = scenes.filter((scene) => scene.believed?.object.visible);
   const counts = shown.map((scene) => scene.believed!.counts());
   const kinds = kBelievedKinds.filter((kind) => counts.some((each) => each[kind] !== undefined));
-  const coarse_m = Math.max(0, ...shown.map((scene) => scene.believed!.coarse_m() ?? 0));
+  const coarse_m = Math.max(0, ...shown.map((scene) => scene.believed!.coarse_m()));
   return [...kinds.map((kind) => thing("dot", kind,
     shown.length > 1 ? "" : `: ${number(counts[0][kind] ?? 0)}`)),
   ...coarse_m === 0 ? [] : [make("span", {},

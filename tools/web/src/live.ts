@@ -9,20 +9,16 @@ const kAsk_ms = 1500;
  */
 export function followRun(shown: string, leave: () => void, place: HTMLElement) {
   place.textContent = "live";
-  const ask = async () => {
+  setInterval(async () => {
     try {
       const answer = await fetch("views", { cache: "no-store" });
       const now = (await answer.text()).trim();
-      if (answer.ok && now !== shown && document.visibilityState === "visible") {
-        leave();
-        location.reload();
-        return;
-      }
       place.textContent = "live";
+      if (!answer.ok || now === shown || document.visibilityState !== "visible") return;
+      leave();
+      location.reload();
     } catch {
       place.textContent = "no longer live: the run has ended, or its terminal was closed";
     }
-    setTimeout(ask, kAsk_ms);
-  };
-  setTimeout(ask, kAsk_ms);
+  }, kAsk_ms);
 }

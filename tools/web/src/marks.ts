@@ -1,36 +1,15 @@
-// Lines and dots of the mission: flown path, views, camera pyramids.
+// Lines and dots of the mission: flown path, views, what is planned, camera pyramids.
 import * as three from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { colourOf, ramp } from "./colours";
 import type { CameraData } from "./data";
-import { lastAtMost, type Flight } from "./flight";
-import { cornersOfViews } from "./path_line";
+import type { Flight } from "./flight";
 
 type Numbers = ArrayLike<number>;
 
-/** Lines of that width; six numbers a segment, of places and of colours. */
-export function makeTube(positions: Numbers, colours: Numbers, width_px: number, opacity = 1) {
-  const geometry = new LineSegmentsGeometry();
-  if (positions.length > 0) {
-    geometry.setPositions(Float32Array.from(positions)).setColors(Float32Array.from(colours));
-  }
-  const tube = new LineSegments2(geometry, new LineMaterial({ linewidth: width_px,
-    vertexColors: true, transparent: opacity < 1, opacity }));
-  tube.frustumCulled = false;
-  return tube;
-}
-
-/** Of places and, where there are any, colours and corners of faces; x y z or r g b each. */
-export function geometryOf(places: Numbers, colours: Numbers | null = null,
-    corners: number[] | null = null): three.BufferGeometry {
-  const geometry = new three.BufferGeometry();
-  const attribute = (values: Numbers) => new three.BufferAttribute(Float32Array.from(values), 3);
-  geometry.setAttribute("position", attribute(places));
-  if (colours) geometry.setAttribute("color", attribute(colours));
-  return corners ? geometry.setIndex(corners) : geometry;
-}
+export const numbersOf = (points: three.Vector3[]) => points.flatMap((point) => point.toArray());
 
 /** Of one colour, as many numbers as there are places; else as they are. */
 function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
@@ -39,23 +18,31 @@ function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
   return Array.from({ length: places.length }, (_, i) => rgb[i % 3]);
 }
 
-/** Thin ones; three numbers an end, of places and, where they are not of one, of colours. */
-export function makeLines(places: Numbers, colours: Numbers | number, opacity = 1) {
-  // all with colours of their own and blended: of one kind, whose shader is compiled once
-  const lines = new three.LineSegments(geometryOf(places, coloursOf(places, colours)),
-    new three.LineBasicMaterial({ vertexColors: true, transparent: true, opacity,
-      depthWrite: opacity > 0.5 }));
-  lines.frustumCulled = false;
-  return lines;
+/** Of places, x y z each, of one colour or r g b each. */
+export function geometryOf(places: Numbers, colours: Numbers | number): three.BufferGeometry {
+  return new three.BufferGeometry()
+    .setAttribute("position", new three.Float32BufferAttribute(places, 3))
+    .setAttribute("color", new three.Float32BufferAttribute(coloursOf(places, colours), 3));
 }
 
-/** Dots of that size; x y z each, of one colour or r g b each. */
-export function makeDots(places: Numbers, colours: Numbers | number, size: number) {
-  const dots = new three.Points(geometryOf(places, coloursOf(places, colours)),
-    new three.PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }));
-  dots.frustumCulled = false;
-  return dots;
+/** Lines of that width; three numbers an end, of places and, where they are not of one, of colours. */
+export function makeTube(places: Numbers, colours: Numbers | number, width_px: number, opacity = 1) {
+  const geometry = new LineSegmentsGeometry().setPositions(Float32Array.from(places))
+    .setColors(Float32Array.from(coloursOf(places, colours)));
+  return new LineSegments2(geometry, new LineMaterial({ linewidth: width_px, vertexColors: true,
+    transparent: opacity < 1, opacity }));
 }
+
+/** Thin ones. */
+export const makeLines = (places: Numbers, colours: Numbers | number, opacity = 1) =>
+  // all with colours of their own and blended: of one kind, whose shader is compiled once
+  new three.LineSegments(geometryOf(places, colours), new three.LineBasicMaterial(
+    { vertexColors: true, transparent: true, opacity, depthWrite: opacity > 0.5 }));
+
+/** Dots of that size. */
+export const makeDots = (places: Numbers, colours: Numbers | number, size: number) =>
+  new three.Points(geometryOf(places, colours),
+    new three.PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }));
 
 /** What is drawn anew for each view, where it is shown. */
 export abstract class ViewMark {
@@ -69,8 +56,11 @@ export abstract class ViewMark {
     this.drawnFor = state;
     for (const part of this.object.children) (part as three.Mesh).geometry.dispose();
     this.object.clear();
-    for (const part of this.parts(n)) this.object.add(part);
-    this.object.traverse((part) => { part.layers.mask = this.object.layers.mask; });
+    for (const part of this.parts(n)) {
+      part.layers.mask = this.object.layers.mask;
+      part.frustumCulled = false;
+      this.object.add(part);
+    }
   }
 
   protected abstract parts(n: number): three.Object3D[];
@@ -79,62 +69,37 @@ export abstract class ViewMark {
   protected variant(): string { return ""; }
 }
 
-/** A piece of the path: the samples that are its corners, and the line through them. */
-interface Piece {
-  corners: number[];
-  line: LineSegments2;
-}
-
-/**
- * The flown path, the profile's part of it thin and grey; show(n) leaves the first n samples, as
- * far as their last corner, and a straight end from there.
- */
+/** The flown path, the profile's part of it thin and grey; show() leaves its first samples. */
 export class PathMark {
   readonly object = new three.Group();
-  private readonly pieces: Piece[]; // the profile, the views
-  private readonly end = makeTube(new Float32Array(6), new Float32Array(6), 2.4);
+  private readonly lines: LineSegments2[]; // of the profile, of the views
+  private readonly ofProfile: number; // samples
 
-  constructor(private readonly flight: Flight) {
-    const count = (flight.points?.length ?? 0) / 3;
-    const firstView = Math.min(flight.firstViewSample(), count);
+  constructor(flight: Flight) {
+    const { points } = flight;
+    const count = (points?.length ?? 0) / 3;
+    this.ofProfile = Math.max(1, flight.profileSamples());
     const grey = new three.Color(colourOf("profile"));
-    this.pieces = [this.piece(0, firstView, 1.2, 0.7, () => grey),
-      this.piece(Math.max(0, firstView - 1), count, 2.4, 1, (share) => ramp("path", share))];
-    this.object.add(...this.pieces.map(({ line }) => line), this.end);
+    const line = (begin: number, end: number, width_px: number, opacity: number,
+        colourAt: (share: number) => three.Color) => {
+      const samples = Array.from({ length: Math.max(0, end - begin) }, (_, i) => begin + i);
+      return makeTube(samples.flatMap((i) => [...points!.subarray(3 * i - 3, 3 * i + 3)]),
+        samples.flatMap((i) => {
+          const rgb = colourAt((i - begin) / (end - begin)).toArray();
+          return [...rgb, ...rgb];
+        }), width_px, opacity);
+    };
+    this.lines = [line(1, this.ofProfile, 1.2, 0.7, () => grey),
+      line(this.ofProfile, count, 2.4, 1, (share) => ramp("path", share))];
+    this.object.add(...this.lines);
   }
-
-  private piece(begin: number, end: number, width_px: number, opacity: number,
-      colourOfShare: (share: number) => three.Color): Piece {
-    const corners = cornersOfViews(this.flight, begin, end);
-    const positions: number[] = [];
-    const colours: number[] = [];
-    for (let i = 0; i + 1 < corners.length; ++i) {
-      const rgb = colourOfShare((corners[i] - begin) / (end - begin)).toArray();
-      positions.push(...this.sample(corners[i]), ...this.sample(corners[i + 1]));
-      colours.push(...rgb, ...rgb);
-    }
-    return { corners, line: makeTube(positions, colours, width_px, opacity) };
-  }
-
-  private sample(i: number) { return this.flight.points!.subarray(3 * i, 3 * i + 3); }
 
   show(samples: number, showsProfile: boolean, showsViews: boolean) {
-    this.end.visible = false;
-    this.pieces.forEach(({ corners, line }, i) => {
-      const last = lastAtMost(corners, samples - 1);
-      line.geometry.instanceCount = Math.max(0, last);
-      const isShown = i === 0 ? showsProfile : showsViews;
-      line.visible = isShown && last > 0;
-      const isBetween = last >= 0 && last + 1 < corners.length && samples - 1 > corners[last];
-      if (!isShown || !isBetween) return;
-      const colours = line.geometry.getAttribute("instanceColorStart");
-      const at = Math.min(last, colours.count - 1);
-      const rgb = [colours.getX(at), colours.getY(at), colours.getZ(at)];
-      this.end.geometry.setPositions([...this.sample(corners[last]), ...this.sample(samples - 1)])
-        .setColors([...rgb, ...rgb]);
-      this.end.material.linewidth = line.material.linewidth;
-      this.end.visible = true;
-    });
+    const [profile, views] = this.lines;
+    profile.visible = showsProfile;
+    views.visible = showsViews;
+    profile.geometry.instanceCount = Math.max(0, Math.min(samples, this.ofProfile) - 1);
+    views.geometry.instanceCount = Math.max(0, samples - this.ofProfile);
   }
 }
 
@@ -152,87 +117,55 @@ function pyramidEdges(camera: CameraData, T: three.Matrix4, depth: number): thre
   return corners.flatMap((corner, i) => [apex, corner, corner, corners[(i + 1) % 4]]);
 }
 
-const numbersOf = (points: three.Vector3[]) => points.flatMap((point) => point.toArray());
-
 /** Small pyramids of every view; show(n) leaves the first n. */
 export class FrustaMark {
   readonly object: three.LineSegments;
-  private readonly perView: number;
+  readonly perView: number; // ends of lines
 
   constructor(flight: Flight) {
-    const positions: number[] = [];
-    const colours: number[] = [];
-    for (let view = 0; view < flight.count; ++view) {
-      const rgb = ramp("path", view / Math.max(1, flight.count - 1)).toArray();
-      for (const { camera, T } of flight.camerasInWorld(view)) {
-        for (const edge of pyramidEdges(camera, T, 0.9)) {
-          positions.push(...edge.toArray());
-          colours.push(...rgb);
-        }
-      }
-    }
-    this.perView = positions.length / 3 / Math.max(1, flight.count);
-    this.object = makeLines(positions, colours, 0.8);
+    const { count } = flight;
+    const edges = Array.from({ length: count }, (_, view) => flight.camerasInWorld(view)
+      .flatMap(({ camera, T }) => pyramidEdges(camera, T, 0.9)));
+    const colours = edges.flatMap((ofView, view) => {
+      const rgb = ramp("path", view / Math.max(1, count - 1)).toArray();
+      return ofView.flatMap(() => rgb);
+    });
+    this.perView = edges[0]?.length ?? 0;
+    this.object = makeLines(numbersOf(edges.flat()), colours, 0.8);
   }
 
   show(views: number) { this.object.geometry.setDrawRange(0, views * this.perView); }
-
-  /** Ends of the lines of a view, x y z each. */
-  lines(view: number): number[] {
-    const { array } = this.object.geometry.getAttribute("position");
-    return [...array.slice(3 * view * this.perView, 3 * (view + 1) * this.perView)];
-  }
 }
+
+const kSoon = 5; // of planned views, whose line and pyramids stand out
+const kPoseNumbers = 7;
 
 /** What a tour still means to do: the line through its views, and what the next ones look at. */
 export class PlanMark extends ViewMark {
-  count = 0; // of views drawn
-  private begin = 0; // of them, among the poses
-  private static readonly kSoon = 5; // views whose line and pyramids stand out
-  private static readonly kPoseNumbers = 7;
+  places: three.Vector3[] = []; // of the views that are drawn
 
   constructor(private readonly flight: Flight) { super(); }
 
   protected parts(n: number): three.Object3D[] {
-    const { ranges } = this.flight.data.plan!;
+    const { data: { plan, cameras: [camera] }, size_m } = this.flight;
+    const { poses, ranges } = plan!;
     const [begin, end] = n > 0 ? ranges.subarray(2 * n - 2, 2 * n) : [0, 0];
-    [this.begin, this.count] = [begin, end - begin];
-    if (this.count === 0) return [];
-    const soonEnd = Math.min(begin + PlanMark.kSoon, end);
-    return [this.line(this.flight.viewPose(n - 1).p, begin, soonEnd, 2.6, 1),
-      this.pyramids(begin, soonEnd), ...soonEnd === end ? []
-        : [this.line(this.place(soonEnd - 1), soonEnd, end, 1.3, 0.6),
-          makeDots(numbersOf(this.places(soonEnd, end)), colourOf("plan"), 5)]];
-  }
-
-  /** Places (x y z each) of the views that are drawn. */
-  drawn(): number[] { return numbersOf(this.places(this.begin, this.begin + this.count)); }
-
-  private place(pose: number) {
-    const { poses } = this.flight.data.plan!;
-    return new three.Vector3().fromArray(poses, PlanMark.kPoseNumbers * pose);
-  }
-
-  private places(begin: number, end: number) {
-    return Array.from({ length: end - begin }, (_, i) => this.place(begin + i));
-  }
-
-  private line(from: three.Vector3, begin: number, end: number, width_px: number, opacity: number) {
-    const places = [from, ...this.places(begin, end)];
-    const ends = places.slice(1).flatMap((place, i) => [places[i], place]);
-    const rgb = new three.Color(colourOf("plan")).toArray();
-    return makeTube(numbersOf(ends), ends.flatMap(() => rgb), width_px, opacity);
-  }
-
-  private pyramids(begin: number, end: number) {
-    const { data: { plan, cameras: [camera] } } = this.flight;
-    const depth = 0.035 * this.flight.workspace().size_m;
-    return makeLines(numbersOf(this.places(begin, end).flatMap((place, i) => {
-      const q = new three.Quaternion()
-        .fromArray(plan!.poses, PlanMark.kPoseNumbers * (begin + i) + 3);
+    this.places = Array.from({ length: end - begin }, (_, i) =>
+      new three.Vector3().fromArray(poses, kPoseNumbers * (begin + i)));
+    if (n === 0) return [];
+    const { places } = this;
+    const from = [this.flight.viewPose(n - 1).p, ...places];
+    const ways = places.map((place, i) => [from[i], place]);
+    const pyramids = places.slice(0, kSoon).flatMap((place, i) => {
+      const q = new three.Quaternion().fromArray(poses, kPoseNumbers * (begin + i) + 3);
       return pyramidEdges(camera,
-        new three.Matrix4().makeRotationFromQuaternion(q).setPosition(place), depth);
-    })), colourOf("plan"));
+        new three.Matrix4().makeRotationFromQuaternion(q).setPosition(place), 0.035 * size_m);
+    });
+    const colour = colourOf("plan");
+    return [makeTube(numbersOf(ways.slice(0, kSoon).flat()), colour, 2.6),
+      makeLines(numbersOf(pyramids), colour),
+      makeTube(numbersOf(ways.slice(kSoon).flat()), colour, 1.3, 0.6),
+      makeDots(numbersOf(places.slice(kSoon)), colour, 5)];
   }
 }
 
@@ -249,8 +182,9 @@ export class SightMark extends ViewMark {
       const corners = pictureCorners(camera, T, depth);
       const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);
       return [makeLines(numbersOf(edges), colour, 0.75),
-        new three.Mesh(geometryOf(numbersOf(sides)), new three.MeshBasicMaterial({ color: colour,
-          transparent: true, opacity: 0.07, depthWrite: false, side: three.DoubleSide }))];
+        new three.Mesh(geometryOf(numbersOf(sides), colour), new three.MeshBasicMaterial({
+          color: colour, transparent: true, opacity: 0.07, depthWrite: false,
+          side: three.DoubleSide }))];
     });
   }
 }

@@ -1,8 +1,79 @@
-// Draws the panes of the 3D view.
+// Draws the panes of the 3D view, surfaces with eye-dome lighting: a pixel is darkened by how far its
+// neighbours stand out before it, which gives a cloud without normals its shape (Boucheny 2009).
+// Lines and other marks are drawn afterwards, or each would wear a dark halo.
 import * as three from "three";
-import type { Clock } from "./clock";
-import { DepthShading } from "./depth_shading";
+import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
+import { isDark } from "./colours";
 import type { RunScene, Side } from "./run_scene";
+
+/** What a picture is taken with; whole, or the gist of it. */
+export interface Shot {
+  camera: three.PerspectiveCamera;
+  pxPerTan: number; // pixels that it draws a unit of tangent
+  isWhole: boolean;
+}
+
+/** Pixels on a side of the gist of a picture, of those of the whole one. */
+export const kGistRatio = 0.5;
+
+/** Of what fills the picture. */
+export const kFullVertex = `
+varying vec2 vAt;
+void main() { vAt = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }`;
+
+const kFragment = `
+uniform sampler2D uColour;
+uniform sampler2D uDepth;
+uniform float uReach; // in pixels
+uniform float uNear;
+uniform float uFar;
+uniform int uNeighbours;
+uniform float uRelief; // in metres; 0: none
+uniform float uPxPerTan;
+uniform vec3 uSun; // seen from the camera
+varying vec2 vAt;
+float logDepth(vec2 at) {
+  float z = texture2D(uDepth, at).x;
+  return log2(uNear * uFar / (uFar - z * (uFar - uNear)));
+}
+vec3 placeAt(vec2 at) {
+  vec2 size = vec2(textureSize(uDepth, 0));
+  float away = exp2(logDepth(at));
+  return vec3((at - 0.5) * size / uPxPerTan * away, -away);
+}
+/** Of the two steps along a way the flatter one: the other may lead off an edge. */
+vec3 stepAlong(vec3 here, vec2 way) {
+  vec3 on = placeAt(vAt + way) - here;
+  vec3 back = here - placeAt(vAt - way);
+  return abs(on.z) < abs(back.z) ? on : back;
+}
+float light() {
+  vec3 here = placeAt(vAt);
+  vec2 px = clamp(uRelief * uPxPerTan / -here.z, 2.0, 40.0) / vec2(textureSize(uDepth, 0));
+  vec3 normal = normalize(cross(stepAlong(here, vec2(px.x, 0.0)), stepAlong(here, vec2(0.0, px.y))));
+  return 0.62 + 0.46 * max(dot(normal, uSun), 0.0);
+}
+void main() {
+  vec4 colour = texture2D(uColour, vAt);
+  float here = logDepth(vAt);
+  vec2 reach = uReach / vec2(textureSize(uDepth, 0));
+  float before = 0.0;
+  for (int i = 0; i < uNeighbours; ++i) {
+    float angle = 6.283185 * float(i) / float(uNeighbours);
+    before += max(0.0, here - logDepth(vAt + reach * vec2(cos(angle), sin(angle))));
+  }
+  float isSomething = step(texture2D(uDepth, vAt).x, 0.99999);
+  colour.rgb *= mix(1.0, max(0.25, exp(-9.0 * before / float(uNeighbours))), isSomething);
+  if (uRelief > 0.0 && isSomething > 0.5) colour.rgb *= light();
+  gl_FragColor = linearToOutputTexel(vec4(colour.rgb, 1.0));
+  gl_FragDepth = texture2D(uDepth, vAt).x;
+}`;
+
+/** What is shaded, and what is drawn over it. */
+export const kSurfaceLayer = 0;
+export const kMarkLayer = 1;
+
+export const kSun = new three.Vector3(-0.5, -0.8, 1.4);
 
 export interface Pane {
   x: number;
@@ -13,7 +84,16 @@ export interface Pane {
 
 export class Painter {
   private readonly renderer: three.WebGLRenderer;
-  private readonly shading = new DepthShading();
+  private readonly background = new three.Color();
+  private readonly target = new three.WebGLRenderTarget(4, 4, { type: three.HalfFloatType,
+    depthTexture: new three.DepthTexture(4, 4, three.UnsignedIntType) });
+  private readonly shading = new three.ShaderMaterial({
+    vertexShader: kFullVertex, fragmentShader: kFragment,
+    depthFunc: three.AlwaysDepth, // brings the surfaces' depths along, for the marks
+    uniforms: Object.fromEntries(["uColour", "uDepth", "uReach", "uNear", "uFar", "uNeighbours",
+      "uRelief", "uPxPerTan", "uSun"].map((name) => [name, { value: null }])),
+  });
+  private readonly quad = new FullScreenQuad(this.shading);
 
   /** Throws where there is no WebGL. */
   constructor(canvas: HTMLCanvasElement) {
@@ -23,36 +103,23 @@ export class Painter {
     this.renderer.debug.checkShaderErrors = false; // asking waits for the compiler
   }
 
-  get background() { return this.shading.background; }
-
   fitCanvas(width: number, height: number, ratio: number) {
     const size = this.renderer.getSize(new three.Vector2());
     if (size.x === width && size.y === height && this.renderer.getPixelRatio() === ratio) return;
     this.renderer.setDrawingBufferSize(width, height, ratio); // once: it takes its time
   }
 
-  /**
-   * A scene at the clock's time into its pane, whole or the gist of it; `share` of it is the truth
-   * where a surface is beside it.
-   */
-  paint(scene: RunScene, clock: Clock, camera: three.PerspectiveCamera, pane: Pane,
-      pxPerTan: number, isWhole: boolean, share: number) {
-    const { x, y, width, height } = pane;
+  /** A scene into its pane; `share` of it is the truth where a surface is beside it. */
+  paint(scene: RunScene, shot: Shot, { x, y, width, height }: Pane, share: number) {
     this.renderer.setViewport(x, y, width, height);
-    const render = (side: Side, from: number, to: number) => {
+    const line = Math.round(width * share);
+    const sides: [Side, number, number][] = scene.isSwiped()
+      ? [["truth", 0, line], ["surface", line, width]] : [["all", 0, width]];
+    for (const [side, from, to] of sides) {
       scene.showSide(side);
-      scene.show(clock, camera, pxPerTan, isWhole);
+      scene.show(shot);
       this.renderer.setScissor(x + from, y, to - from, height);
-      this.shading.render(this.renderer, scene.scene, camera, width, height, isWhole,
-        scene.relief_m());
-    };
-    if (scene.isSwiped()) {
-      const line = Math.round(width * share);
-      render("truth", 0, line);
-      render("surface", line, width);
-      scene.showSide("all");
-    } else {
-      render("all", 0, width);
+      this.render(scene, shot, width, height);
     }
   }
 
@@ -60,5 +127,33 @@ export class Painter {
   wait() {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  /** Into the present viewport; with smooth edges where it is a whole picture. */
+  private render(scene: RunScene, { camera, pxPerTan, isWhole }: Shot, width: number,
+      height: number) {
+    const { renderer, target } = this;
+    const ratio = renderer.getPixelRatio();
+    const samples = isWhole ? 4 : 0;
+    if (target.samples !== samples) target.dispose();
+    target.samples = samples;
+    const [w, h] = [width, height].map((side) => Math.max(1, Math.round(side * ratio)));
+    target.setSize(w, h);
+    const values = { uColour: target.texture, uDepth: target.depthTexture, uReach: 1.2 * ratio,
+      uNear: camera.near, uFar: camera.far, uNeighbours: isWhole ? 8 : 4,
+      uRelief: scene.relief_m(), uPxPerTan: pxPerTan,
+      uSun: kSun.clone().transformDirection(camera.matrixWorldInverse) };
+    for (const [name, value] of Object.entries(values)) this.shading.uniforms[name].value = value;
+    renderer.setRenderTarget(target);
+    // here, since it is converted for the present target
+    renderer.setClearColor(this.background.setHex(isDark() ? 0x14181e : 0xf4f6f9));
+    renderer.clear();
+    camera.layers.set(kSurfaceLayer);
+    renderer.render(scene.scene, camera);
+    renderer.setRenderTarget(null);
+    renderer.clear();
+    this.quad.render(renderer);
+    camera.layers.set(kMarkLayer);
+    renderer.render(scene.scene, camera);
   }
 }

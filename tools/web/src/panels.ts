@@ -1,11 +1,14 @@
 // Everything that is text, tables and pictures.
-import type { Clock } from "./clock";
 import type { PageData, RunData, Table } from "./data";
-import { make, measure, minutes, number, ofRun, toggle } from "./dom";
+import { make, measure, minutes, number, ofRun, toggle, type Child } from "./dom";
 import type { Flight } from "./flight";
 
 /** A name whose unit no line breaks off. */
 const bound = (name: string) => name.replace(/ (\(?m\)?|\(min\))$/, "\u00a0$1");
+
+/** "label: " where there are several runs. */
+export const ofLabel = (runs: unknown[], { label }: RunData) =>
+  (runs.length > 1 ? `${label}: ` : "");
 
 export function makeTiles({ key_figures }: RunData): HTMLElement {
   const hasPapers = key_figures.some(({ paper }) => paper !== "");
@@ -27,36 +30,37 @@ export function makeRunTable(runs: RunData[], shown: Set<number>,
       if (on) shown.add(index); else shown.delete(index);
       change();
     });
-    return make("tr", {}, make("th", { scope: "row" }, ofRun("chip", index, box)), ...heads.map((head) => {
+    return [ofRun("chip", index, box), ...heads.map((head) => {
       const figure = run.key_figures.find(({ name }) => name === head);
-      return make("td", { class: "number" }, figure ? measure(figure.value, figure.unit) : "");
-    }));
+      return figure ? measure(figure.value, figure.unit) : "";
+    })];
   };
   return tableOf("runs", ["Shown below", ...heads.map(bound)], (i) => i > 0, runs.map(row));
 }
 
-/** `heads` of columns, some of numbers, over rows. */
+/** `heads` of columns, some of numbers, over rows, of which some are ours. */
 export function tableOf(kind: string, heads: string[], isNumber: (column: number) => boolean,
-    rows: HTMLElement[]): HTMLElement {
+    rows: Child[][], isOurs = (_row: number) => false): HTMLElement {
+  const numberClass = (column: number) => (isNumber(column) ? "number" : "");
   return make("div", { class: "card scroll" }, make("table", { class: kind },
     make("thead", {}, make("tr", {}, ...heads.map((head, i) =>
-      make("th", { scope: "col", class: isNumber(i) ? "number" : "" }, head)))),
-    make("tbody", {}, ...rows)));
+      make("th", { scope: "col", class: numberClass(i) }, head)))),
+    make("tbody", {}, ...rows.map((row, k) => make("tr", { class: isOurs(k) ? "ours" : "" },
+      ...row.map((cell, i) => make(i > 0 ? "td" : "th", { class: numberClass(i) }, cell)))))));
 }
 
 export function makeTable({ title, columns, rows, notes }: Table): HTMLElement {
-  const isNumber = (column: number) => columns[column].is_number;
   const ours = columns.findIndex(({ head }) => head === "Row");
   return make("div", {}, make("h3", {}, title),
-    tableOf("", columns.map(({ head }) => bound(head)), isNumber, rows.map((row) =>
-      make("tr", { class: row[ours] === "ours" ? "ours" : "" }, ...row.map((cell, i) =>
-        make("td", { class: isNumber(i) ? "number" : "" }, cell.replace(/(\d)%$/, "$1\u00a0%")))))),
+    tableOf("", columns.map(({ head }) => bound(head)), (column) => columns[column].is_number,
+      rows.map((row) => row.map((cell) => cell.replace(/(\d)%$/, "$1\u00a0%"))),
+      (row) => rows[row][ours] === "ours"),
     make("ul", { class: "notes" }, ...notes.map((note) => make("li", {}, ...withCode(note)))));
 }
 
 export function makeMissing(runs: RunData[]): HTMLElement | null {
   const sentences = runs.flatMap((run) => run.missing.map((sentence) =>
-    make("li", {}, runs.length > 1 ? `${run.label}: ` : "", ...withCode(sentence))));
+    make("li", {}, ofLabel(runs, run), ...withCode(sentence))));
   if (sentences.length === 0) return null;
   return make("details", { class: "card missing" },
     make("summary", {}, sentences.length === 1 ? "One thing is not shown"
@@ -65,21 +69,19 @@ export function makeMissing(runs: RunData[]): HTMLElement | null {
 }
 
 /** `commands` between backticks as code. */
-function withCode(sentence: string): (Node | string)[] {
-  return sentence.split("`").map((part, i) => (i % 2 === 1 ? make("code", {}, part) : part));
-}
+const withCode = (sentence: string): Child[] =>
+  sentence.split("`").map((part, i) => (i % 2 === 1 ? make("code", {}, part) : part));
 
-export function makeConfiguration(runs: RunData[]): HTMLElement {
-  return make("section", {}, make("h2", {}, "Fly it again"),
-    ...runs.map((run) => make("div", { class: "card again" },
-      runs.length > 1 ? ofRun("chip", runs.indexOf(run), run.label) : null,
+export const makeConfiguration = (runs: RunData[]) =>
+  make("section", {}, make("h2", {}, "Fly it again"),
+    ...runs.map((run, i) => make("div", { class: "card again" },
+      runs.length > 1 ? ofRun("chip", i, run.label) : null,
       make("p", {}, make("code", {}, run.command)),
       run.figures ? make("p", { class: "fine" },
         `gnbv ${run.figures.version}, seed ${run.seed}, preset ${run.preset}; result_sha256 `,
         make("code", {}, run.figures.result_sha256)) : null,
       make("details", {}, make("summary", {}, "Configuration: scenario.yaml"),
         make("pre", { tabindex: 0 }, run.yaml)))));
-}
 
 /** A name of ours, "lab_model"; of the user's, a file's for one, as it is. */
 const spaced = (name: string) => (/^[a-z0-9_]+$/.test(name) ? name.replaceAll("_", " ") : name);
@@ -94,51 +96,44 @@ export function validWords(flight: Flight, view: number): string {
 }
 
 /** Where the replay is, in words. */
-export function readout(flight: Flight, clock: Clock): string {
-  const n = flight.viewsAt(clock);
+export function readout(flight: Flight): string {
+  const { n } = flight;
   if (n === 0) return "After the profile, before the first view";
   const v = flight.data.views;
-  const parts = [`View ${number(n)} of ${number(flight.count)}`,
-    `${measure(number(v.metres[n - 1], 1), "m")}, ${measure(minutes(v.seconds[n - 1]), "min")} from `
-      + "the first view on"];
   const coverage = flight.data.figures?.curve[n];
-  if (coverage !== undefined) parts.push(`coverage ${measure(number(100 * coverage, 1), "%")}`);
-  if (v.sampler[n - 1] === "tour") {
-    parts.push(`the first of ${number(v.candidates[n - 1])} planned`);
-  } else if (v.candidates[n - 1] > 0) {
-    parts.push(validWords(flight, n - 1));
-  }
-  return parts.join("  ·  ");
+  const decision = v.sampler[n - 1] === "tour"
+    ? [`the first of ${number(v.candidates[n - 1])} planned`]
+    : v.candidates[n - 1] > 0 ? [flight.burstWords(n - 1), validWords(flight, n - 1)] : [];
+  return [`View ${number(n)} of ${number(flight.count)}`,
+    `${measure(number(v.metres[n - 1], 1), "m")}, ${measure(minutes(v.seconds[n - 1]), "min")} from `
+      + "the first view on",
+    coverage === undefined ? "" : `coverage ${measure(number(100 * coverage, 1), "%")}`,
+    ...decision].filter((part) => part).join("  ·  ");
 }
 
 /** What of the run directory the page leaves out. */
-function thinning(run: RunData, page: PageData): string {
+function thinning(run: RunData, { runs, meshes }: PageData): string {
   const parts: string[] = [];
   if (run.cloud && run.cloud.cell_m > 0) {
     const { points, all_points, cell_m } = run.cloud;
     parts.push(`${number(points.length / 3)} of ${number(all_points)} points, one in each cube `
       + `of ${number(100 * cell_m, 1)} cm`);
   }
-  const mesh = page.meshes[run.mesh];
+  const mesh = meshes[run.mesh];
   const faces = mesh?.parts.reduce((sum, part) => sum + part.corners.length / 3, 0) ?? 0;
   if (mesh && faces < mesh.all_faces) {
     parts.push(`${number(faces)} of ${number(mesh.all_faces)} faces of the structure`);
   }
-  if (parts.length === 0) return "";
-  return `${page.runs.length > 1 ? `${run.label}: ` : "Shown are "}${parts.join("; ")}. `;
+  return parts.length === 0 ? "" : `${ofLabel(runs, run) || "Shown are "}${parts.join("; ")}. `;
 }
 
-export function makeFooter(page: PageData): HTMLElement {
-  return make("footer", {}, `gnbv ${page.version}. `,
-    ...page.runs.map((run) => thinning(run, page)), "Frames are shrunk so that the page stays "
-    + "small; the run directory holds everything.");
-}
+export const makeFooter = (page: PageData) => make("footer", {}, `gnbv ${page.version}. `,
+  ...page.runs.map((run) => thinning(run, page)), "Frames are shrunk so that the page stays "
+  + "small; the run directory holds everything.");
 
-export function makeHeader(page: PageData): HTMLElement {
-  const [run] = page.runs;
-  const detail = page.runs.length > 1 ? "" : [`structure ${spaced(run.structure)}`, `seed ${run.seed}`,
-    `preset ${spaced(run.preset)}`,
-    run.figures ? `ended by ${spaced(run.figures.termination)}` : "not finished"]
-    .join("  ·  ");
-  return make("header", {}, make("h1", {}, page.title), make("p", {}, detail));
+export function makeHeader({ title, runs }: PageData): HTMLElement {
+  const [{ structure, seed, preset, figures }] = runs;
+  const detail = runs.length > 1 ? [] : [`structure ${spaced(structure)}`, `seed ${seed}`,
+    `preset ${spaced(preset)}`, figures ? `ended by ${spaced(figures.termination)}` : "not finished"];
+  return make("header", {}, make("h1", {}, title), make("p", {}, detail.join("  ·  ")));
 }

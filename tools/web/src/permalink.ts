@@ -1,54 +1,32 @@
 // The page's state in the URL's hash, so that a link shows what its sender saw.
-import type { Effort } from "./clock";
+import { kEfforts, type Effort } from "./clock";
 
 export interface PageState {
-  effort?: Effort;
-  at?: number;
-  camera?: number[]; // position and target
-  layers?: string[];
-  colour?: string;
-  runs?: number[];
+  effort: Effort;
+  at: number; // not finite: the end, wherever that will be
+  camera: number[]; // position and target
+  layers: string[];
+  colour: string;
+  runs: number[];
 }
 
 /** Of a hash; what it does not say, or says wrongly, is left out. */
-export function readState(hash: string): PageState {
-  const state: PageState = {};
+export function readState(hash: string): Partial<PageState> {
   const words = new URLSearchParams(hash.replace(/^#/, ""));
   const list = (key: string) => words.get(key)?.split(",").filter((word) => word !== "");
-  const numbers = (key: string) => {
+  const numbers = (key: string, count?: number) => {
     const all = list(key)?.map(Number);
-    return all?.every(Number.isFinite) ? all : undefined;
+    return all?.every(Number.isFinite) && all.length === (count ?? all.length) ? all : undefined;
   };
-  const effort = words.get("by");
-  if (effort === "views" || effort === "metres" || effort === "seconds") state.effort = effort;
-  state.at = numbers("at")?.[0];
-  const camera = numbers("camera");
-  if (camera?.length === 6) state.camera = camera;
-  state.layers = list("layers"); // of none, all are off
-  state.colour = words.get("colour") ?? undefined;
-  state.runs = numbers("runs");
-  return state;
+  return { effort: kEfforts.find(([effort]) => effort === words.get("by"))?.[0],
+    at: numbers("at")?.[0], camera: numbers("camera", 6), layers: list("layers"), // of none: all off
+    colour: words.get("colour") ?? undefined, runs: numbers("runs") };
 }
 
-export function hashOf(state: Required<PageState>): string {
+export function hashOf({ effort, at, camera, layers, colour, runs }: PageState): string {
   const short = (x: number) => String(Number(x.toFixed(3)));
-  return "#" + [["by", state.effort], ["at", Number.isFinite(state.at) ? short(state.at) : null],
-    ["camera", state.camera.length > 0 ? state.camera.map(short).join(",") : null],
-    ["layers", state.layers.join(",")], ["colour", state.colour], ["runs", state.runs.join(",")]]
-    .filter((each): each is [string, string] => each[1] !== null) // an empty list is one, too
-    .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
-}
-
-/** Writes the state some moments after it has changed last. */
-export class StateWriter {
-  private timer = 0;
-
-  constructor(private readonly state: () => Required<PageState>) {}
-
-  change() {
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => this.write(), 400);
-  }
-
-  write() { history.replaceState(null, "", hashOf(this.state())); }
+  const words = new URLSearchParams({ by: effort, ...Number.isFinite(at) ? { at: short(at) } : {},
+    ...camera.length > 0 ? { camera: camera.map(short).join() } : {}, layers: layers.join(), colour,
+    runs: runs.join() });
+  return `#${words}`.replaceAll("%2C", ",");
 }

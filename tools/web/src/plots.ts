@@ -2,9 +2,9 @@
 // they show comes with the page (tools/figures/figures.schema.json); each is an SVG, on the page, on
 // paper and as a file.
 import { kEfforts, type Clock } from "./clock";
-import { hairline, isDark, onPage, paleInk } from "./colours";
+import { cssOnPage } from "./colours";
 import type { Plot, PlotChoice } from "./data";
-import { make, number, select, significant } from "./dom";
+import { make, mark, number, select, significant } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
 import { fileName, saveFile } from "./save";
 
@@ -18,13 +18,13 @@ export interface Figure { notes: string[]; panels: Panel[] }
 
 const kLeft = 60;
 const kRight = 16;
+const kFont_px = 11;
 const kLane = 9; // of a panel of intervals
 const kKeys = 4; // a row
 const kKeyRow = 14;
 
-/** Of the page, of paper or of a file, which says itself what it shows. */
-interface SvgLook { where: "screen" | "paper" | "file"; width: number; height: number; left: number;
-  font: number; title?: string }
+/** Of the page, or of a file, which has a title and cannot know the page's colours. */
+interface SvgLook { width: number; height: number; left: number; title?: string }
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const label = (x: number, y: number, anchor: string, what: string) => `<text x="${
@@ -40,14 +40,12 @@ const heightOf = (panels: Panel[]) =>
 /** A panel between `top` and `bottom` of a picture; its axis below where that is the last one. */
 function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, bottom: number,
     isLast: boolean): string {
-  const { where, width, left, font } = look;
-  const isPaper = where !== "screen";
-  const line = isPaper ? "#dfe4ea" : hairline();
+  const { width, left, title } = look;
+  const [line, shade] = title ? ["#dfe4ea", "#fcf0e1"] : ["var(--line)", "var(--phase)"];
+  const colour = (one: Series) => (title ? one.colour : cssOnPage(one.colour));
   const [w, h] = [width - left - kRight, bottom - top];
   const px = (at: number) => left + w * (at - x.low) / (x.high - x.low);
   const py = (at: number) => bottom - h * (at - y.low) / (y.high - y.low || 1);
-  const colour = (one: Series) => (isPaper ? one.colour : `#${onPage(one.colour).getHexString()}`);
-  const shade = isPaper || !isDark() ? "#fcf0e1" : "#33291d"; // opaque: not all know rgba()
   const point = (at: number, value: number) => `${px(at).toFixed(1)},${py(value).toFixed(1)}`;
   const draw = (one: Series) => {
     const known = [...one.y.keys()].filter((i) => !Number.isNaN(one.y[i]));
@@ -75,22 +73,21 @@ function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, 
   const grid = `<path fill="none" stroke="${line}" d="`;
   return [...shades.spans.map(([from, to]) => rect(px(from), top, px(to) - px(from), h, shade)),
     ...!isLast ? [] : x.ticks.map(({ at, text }) => `${grid}M${px(at).toFixed(1)} ${top}v${h}"/>`
-      + label(px(at), bottom + 1.4 * font, "middle", text)),
+      + label(px(at), bottom + 1.4 * kFont_px, "middle", text)),
     ...y.ticks.map(({ at, text }) => (isLast ? `${grid}M${left} ${py(at).toFixed(1)}h${w}"/>` : "")
-      + label(left - 6, py(at) + 0.36 * font, "end", text)),
+      + label(left - 6, py(at) + 0.36 * kFont_px, "end", text)),
     ...series.map(draw),
-    isLast ? label(left + w / 2, bottom + 2.8 * font, "middle", x.label) : ""].join("");
+    isLast ? label(left + w / 2, bottom + 2.8 * kFont_px, "middle", x.label) : ""].join("");
 }
 
 /** One plot with what is chosen of it, of the runs that are shown. */
 class PlotView {
   readonly element: HTMLElement;
-  private svg: SVGElement | null = null;
+  private width = 0; // as it is drawn
   private readonly place = make("div", { class: "plot-place" });
-  private readonly values: HTMLElement[] = [];
   private readonly now = make("i", { class: "now" }); // moving it draws no plot anew
   private readonly panels: Panel[];
-  private readonly named: Series[];
+  private readonly named: { series: Series; value: HTMLElement }[];
 
   constructor(plot: Plot, { notes, panels }: Figure, words: string, private readonly all: Plots,
       controls: HTMLElement[]) {
@@ -98,32 +95,26 @@ class PlotView {
       series: panel.series.filter(({ name }) => all.isShown(name)) }))
       .filter(({ series }) => series.length > 0);
     const main = this.panels.at(-1);
-    this.named = main?.series.filter((one) => one.label !== "") ?? [];
+    this.named = main?.series.filter(({ label }) => label !== "")
+      .map((series) => ({ series, value: make("b") })) ?? [];
     const title = `${plot.title}${words} ${main?.y.label ?? ""}`.trim();
-    const legend = make("div", { class: "values" }, ...this.named.map((one) => {
-      const mark = make("i", { class: "mark line" });
-      mark.style.background = `#${onPage(one.colour).getHexString()}`;
-      const value = make("b", {});
-      this.values.push(value);
-      return make("span", {}, mark, one.label, " ", value);
-    }));
+    const hasShades = main && main.shades.spans.length > 0 && plot === all.plots[0];
     this.element = make("figure", { class: "card plot" }, make("figcaption", {},
       make("span", { class: "plot-title", title: plot.note }, plot.title),
       make("span", { class: "plot-choice" }, words),
       make("span", { class: "unit" }, main?.y.label ?? ""),
       make("span", { class: "marks-key" }, ...notes.map((note) => make("span", {}, note)),
         ...this.panels.filter(isLanes).map(({ y }) => make("span", {},
-          make("i", { class: "swatch strip" }), y.label)),
-        main && main.shades.spans.length > 0 && plot === all.plots[0] ? make("span", {},
-          make("i", { class: "swatch" }), main.shades.label) : null),
+          mark("line", "var(--pale)"), y.label)),
+        hasShades ? make("span", {}, mark("dot", "var(--phase)"), main.shades.label) : null),
       ...controls),
     ...!main ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
-      : [this.place, legend, make("button", { type: "button", class: "small save",
-        title: `${plot.title} as SVG`, click: () => {
-          const svg = this.drawn({ where: "file", width: 640, height: 400, left: 64, font: 11,
-            title });
-          saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
-        } }, "SVG")]);
+      : [this.place, make("div", { class: "values" }, ...this.named.map(({ series, value }) =>
+        make("span", {}, mark("line", cssOnPage(series.colour)), series.label, " ", value))),
+      make("button", { class: "small save", title: `${plot.title} as SVG`, click: () => {
+        const svg = this.drawn({ width: 640, height: 400, left: 64, title });
+        saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
+      } }, "SVG")]);
     for (const kind of ["pointerdown", "pointermove", "pointerleave"] as const) {
       this.place.addEventListener(kind, (event) => this.point(event));
     }
@@ -131,34 +122,30 @@ class PlotView {
 
   /** Anew where the page has become narrower or wider. */
   fit() {
-    const width = this.place.clientWidth;
-    if (width === 0 || (this.svg && width === Number(this.svg.getAttribute("width")))) return;
-    const parse = (look: SvgLook) => new DOMParser()
-      .parseFromString(this.drawn(look), "image/svg+xml").documentElement as unknown as SVGElement;
-    this.svg = parse({ where: "screen", width, height: 168 + heightOf(this.panels), left: kLeft,
-      font: 11 });
-    this.place.replaceChildren(this.svg, this.now, parse({ where: "paper", width: 350,
-      height: this.all.paper_px, left: 44, font: 9 }));
+    const { clientWidth: width } = this.place;
+    if (width === 0 || width === this.width) return;
+    this.width = width;
+    this.place.innerHTML = this.drawn({ width, height: 168 + heightOf(this.panels), left: kLeft });
+    this.place.append(this.now);
   }
 
   /** The replay's place, and the values at `at`. */
   follow(now: number, at: number) {
-    if (!this.svg) return;
+    if (this.width === 0) return;
     const { x: { high } } = this.panels.at(-1)!;
-    const w = Number(this.svg.getAttribute("width")) - kLeft - kRight;
-    this.now.style.transform = `translateX(${(kLeft + w * Math.max(0, now) / high).toFixed(1)}px)`;
-    this.named.forEach(({ mark, x, y, low, high: most }, i) => {
-      let k = mark === "level" ? 0 : lastAtMost(x, at + 1e-9);
+    const px = kLeft + (this.width - kLeft - kRight) * Math.max(0, now) / high;
+    this.now.style.left = `${100 * px / this.width}%`; // also where it is printed narrower
+    for (const { value, series: { mark: kind, x, y, low, high: most } } of this.named) {
+      let k = kind === "level" ? 0 : lastAtMost(x, at + 1e-9);
       if (k < 0 && x[0] === 0) k = 0; // after the profile alone
       while (k >= 0 && Number.isNaN(y[k])) --k;
       const range = k >= 0 && low.length > 0 ? ` (${valueText(low[k])} to ${valueText(most[k])})` : "";
-      this.values[i].textContent = k < 0 ? "–" : valueText(y[k]) + range;
-    });
+      value.textContent = k < 0 ? "–" : valueText(y[k]) + range;
+    }
   }
 
   private point(event: PointerEvent) {
-    if (!this.svg) return;
-    const { left, width } = this.svg.getBoundingClientRect();
+    const { left, width } = this.place.getBoundingClientRect();
     const at = this.panels.at(-1)!.x.high * (event.clientX - left - kLeft) / (width - kLeft - kRight);
     if (event.type === "pointerleave") this.all.hover(null);
     else if (event.buttons === 1) this.all.seek(at);
@@ -166,25 +153,23 @@ class PlotView {
   }
 
   private drawn(look: SvgLook): string {
-    const { where, width, height, left, font, title } = look;
+    const { width, height, left, title } = look;
     const keys = title ? this.named : [];
-    const key = ({ colour, label: words }: Series, i: number) => {
+    const parts = keys.map(({ series: { colour, label: words } }, i) => {
       const [x, y] = [left + i % kKeys * 138, 26 + kKeyRow * Math.floor(i / kKeys)];
       return rect(x, y - 9, 10, 10, colour) + label(x + 14, y, "start", words);
-    };
-    let top = (title ? 20 : 8) + kKeyRow * Math.ceil(keys.length / kKeys);
-    const parts = this.panels.map((panel, i) => {
-      const isLast = i + 1 === this.panels.length;
-      const bottom = isLast ? height - 3.3 * font : top + heightOf([panel]);
-      const part = drawPanel(panel, look, top, bottom, isLast);
-      top = bottom;
-      return part;
     });
-    return `<svg xmlns="http://www.w3.org/2000/svg" class="${where}" `
-      + `viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" `
-      + `font-family="sans-serif" font-size="${font}" color="${
-        where === "screen" ? paleInk() : "#30363f"}">${parts.join("")}${keys.map(key).join("")}${
-        title ? label(left, 12, "start", title) : ""}</svg>\n`;
+    if (title) parts.push(label(left, 12, "start", title));
+    let top = (title ? 20 : 8) + kKeyRow * Math.ceil(keys.length / kKeys);
+    for (const panel of this.panels) {
+      const isLast = panel === this.panels.at(-1);
+      const bottom = isLast ? height - 3.3 * kFont_px : top + heightOf([panel]);
+      parts.push(drawPanel(panel, look, top, bottom, isLast));
+      top = bottom;
+    }
+    return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" `
+      + `width="${width}" height="${height}" font-family="sans-serif" font-size="${kFont_px}" `
+      + `color="${title ? "#30363f" : "var(--pale)"}">${parts.join("")}</svg>\n`;
   }
 }
 
@@ -193,16 +178,15 @@ const valueText = (value: number) =>
 
 export class Plots {
   readonly element = make("section", { class: "plots", "aria-label": "Plots" });
-  private hidden = new Set<string>(); // labels of runs
+  private hidden: string[] = []; // labels of runs
   private views: PlotView[] = [];
   private shownBy = "";
   private hovered: number | null = null;
   private showsMeans = false;
   private readonly chosen: number[]; // of each plot
 
-  /** Plots are `paper_px` high where they are 350 px wide, on paper. */
   constructor(readonly plots: Plot[], private readonly flights: Flight[],
-      private readonly clock: Clock, readonly paper_px: number) {
+      private readonly clock: Clock) {
     this.chosen = plots.map(() => 0);
     clock.onChange(() => {
       if (clock.effort !== this.shownBy) this.rebuild(); else this.follow();
@@ -210,24 +194,22 @@ export class Plots {
     new ResizeObserver(() => this.fit()).observe(this.element);
   }
 
-  isShown(series: string) { return !this.hidden.has(series); }
+  isShown(series: string) { return !this.hidden.includes(series); }
 
   setFlights(shown: Flight[]) {
-    this.hidden = new Set(this.flights.filter((flight) => !shown.includes(flight))
-      .map(({ data }) => data.label));
+    this.hidden = this.flights.filter((flight) => !shown.includes(flight))
+      .map(({ data }) => data.label);
     this.rebuild();
   }
 
-  rebuild() {
+  private rebuild() {
     this.shownBy = this.clock.effort;
     this.views = this.plots.map((plot, i) => this.viewOf(plot, i));
     this.element.replaceChildren(...this.views.map(({ element }) => element));
     this.fit();
   }
 
-  seek(at: number) {
-    this.clock.set({ at: this.clock.effort === "views" ? Math.round(at) : at, isPlaying: false });
-  }
+  seek(at: number) { this.clock.moveTo(this.clock.effort === "views" ? Math.round(at) : at); }
 
   hover(at: number | null) {
     this.hovered = at;
@@ -241,16 +223,16 @@ export class Plots {
     const effort = kEfforts.findIndex(([name]) => name === this.clock.effort);
     const figure = (isMean ? choice?.means : choice?.runs)?.[effort];
     const controls = [
-      i === 0 && hasMeans ? select("Runs of several seeds",
+      i === 0 && hasMeans && select("Runs of several seeds",
         [["runs", "Each run"], ["means", "Means"]], isMean ? "means" : "runs", (value) => {
           this.showsMeans = value === "means";
           this.rebuild();
-        }) : null,
-      plot.choices.length > 1 ? select(plot.chooses, plot.choices.map(({ label: words }, k) =>
+        }),
+      plot.choices.length > 1 && select(plot.chooses, plot.choices.map(({ label: words }, k) =>
         [String(k), words]), String(this.chosen[i]), (value) => {
         this.chosen[i] = Number(value);
         this.rebuild();
-      }) : null].filter((control) => control !== null);
+      })].filter((control) => control !== false);
     const words = (plot.choices.length > 1 ? `, ${choice.label.replace(/^[A-Z]/, (c) =>
       c.toLowerCase())}` : "") + (isMean ? ", means of seeds" : "");
     return new PlotView(plot, figure ?? { notes: [], panels: [] }, words, this, controls);

@@ -2,22 +2,18 @@
 import * as three from "three";
 import { BelievedMarks } from "./believed";
 import { CandidateMarks } from "./candidates";
-import type { Clock } from "./clock";
 import { hairline } from "./colours";
 import type { MeshData, RunData } from "./data";
-import { kMarkLayer } from "./depth_shading";
-import { rangeOf, type Flight } from "./flight";
+import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
-import type { Picked } from "./pick";
+import { kMarkLayer, kSun, type Shot } from "./painter";
+import type { Thing } from "./pick";
 import { readRunSurface } from "./run_surface";
 import { Splats } from "./splats";
 import { Structure } from "./structure";
 import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
 import { makeVehicle } from "./vehicle";
-
-/** Pixels on a side of the gist of a picture, of those of the whole one. */
-export const kGistRatio = 0.5;
 
 /** Which of the scene's layers are shown, by their names (tools/scene/looks.cpp). */
 export type Layers = Record<string, boolean>;
@@ -35,9 +31,8 @@ function makeGround({ workspace_min: min, workspace_max: max, grid_m }: RunData)
   return grid;
 }
 
-const isMeasured = (layers: Layers) =>
-  layers.cloud || layers.voxels || layers.found || layers.missed || layers.surface
-  || layers.unknown || layers.predicted || layers.frontiers;
+const kMeasured = ["cloud", "voxels", "found", "missed", "surface", "unknown", "predicted",
+  "frontiers"];
 
 export class RunScene {
   readonly scene = new three.Scene();
@@ -49,13 +44,13 @@ export class RunScene {
   readonly surface: TrueSurface | null;
   readonly candidates: CandidateMarks | null;
   readonly believed: BelievedMarks | null;
-  readonly runSurface: three.Group | null;
-  onLoad = () => {}; // of the picture on that surface
+  others: RunScene[] = []; // around the same structure: what they found is told apart
+  onLoad = () => {}; // of the picture on the run's surface
+  private readonly runSurface: three.Group | null;
   private readonly body: three.Group;
   private readonly sightMark: SightMark;
   private readonly path: PathMark;
   private layers: Layers = {};
-  private others: RunScene[] = [];
   private readonly splats = new Splats();
 
   constructor(readonly flight: Flight, mesh: MeshData | undefined) {
@@ -75,18 +70,16 @@ export class RunScene {
     this.sightMark = new SightMark(flight, this.sightMost_m());
     this.vehicle.add(this.body, this.sightMark.object);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
-    sun.position.set(-0.5, -0.8, 1.4);
+    sun.position.copy(kSun);
     const sky = new three.HemisphereLight(0xffffff, 0x8d939c, 1.5);
     for (const light of [sun, sky]) light.layers.enable(kMarkLayer);
-    this.scene.add(sun, sky);
     const marks = [this.path.object, this.frusta.object, this.vehicle, this.plan?.object,
       this.candidates?.object, this.believed?.object,
-      data.has_ground ? makeGround(data) : null];
-    for (const part of [this.structure?.object, this.model.voxels, this.runSurface,
-      this.splats.object, ...marks]) {
-      if (part) this.scene.add(part);
-    }
-    for (const mark of marks) mark?.traverse((part) => part.layers.set(kMarkLayer));
+      data.has_ground ? makeGround(data) : null].filter((mark) => !!mark);
+    for (const mark of marks) mark.traverse((part) => part.layers.set(kMarkLayer));
+    this.scene.add(sun, sky, ...[this.structure?.object, this.model.voxels, this.runSurface,
+      this.splats.object, ...marks].filter((part) => !!part));
+    this.scene.traverse((part) => { part.frustumCulled = false; });
   }
 
   /** Which of the layers there is anything for. */
@@ -101,7 +94,6 @@ export class RunScene {
 
   setLayers(layers: Layers) {
     this.layers = layers;
-    this.showSide("all");
     this.model.isFaded = layers.missed && !!this.surface;
     this.frusta.object.visible = layers.frusta;
     if (this.plan) this.plan.object.visible = layers.plan;
@@ -119,7 +111,7 @@ export class RunScene {
     const { layers, structure, runSurface, model } = this;
     if (structure) {
       structure.object.visible = side === "truth" || (side === "all" && layers.structure);
-      structure.setGhost(side !== "truth" && isMeasured(layers));
+      structure.setGhost(side !== "truth" && kMeasured.some((layer) => layers[layer]));
     }
     if (runSurface) runSurface.visible = side !== "truth" && layers.surface;
     model.showsPoints = side === "all" && layers.cloud;
@@ -131,35 +123,32 @@ export class RunScene {
     if (this.surface) this.surface.isByOrder = by === "iteration";
   }
 
-  /** What other runs around the same structure found and this one did not is told apart. */
   compareWith(others: RunScene[]) {
-    this.others = others.filter(({ surface, flight }) => surface
+    this.others = others.filter(({ surface, flight }) => this.surface && surface
       && flight.data.mesh === this.flight.data.mesh);
-    this.surface?.compareWith(this.others.map(({ surface }) => surface!));
   }
 
-  /** How many others it is compared with. */
-  compared() { return this.surface ? this.others.length : 0; }
+  /** What was decided and is counted, as things are now. */
+  decide() {
+    const { n } = this.flight;
+    this.candidates?.show(n);
+    this.believed?.show(this.flight.planOf(n));
+  }
 
-  /**
-   * As it is at the clock's time, for a camera that draws `pxPerTan` pixels a unit of tangent;
-   * whole, or the gist of it.
-   */
-  show(clock: Clock, camera: three.PerspectiveCamera, pxPerTan: number, isWhole: boolean) {
-    const n = this.flight.viewsAt(clock);
-    this.model.show(n);
+  /** As it is now, for a picture. */
+  show(shot: Shot) {
+    const { flight, model, surface, layers: { path, profile } } = this;
+    const { n } = flight;
+    model.show(n);
     // where there is no path yet, that of the profile leads to the vehicle
-    const { path, profile } = this.layers;
-    this.path.show(this.flight.samplesBy(this.flight.timeAt(clock)), profile || (path && n === 0),
-      path);
+    this.path.show(flight.samplesBy(flight.time()), profile || (path && n === 0), path);
     this.frusta.show(n);
     this.plan?.show(n);
-    this.candidates?.show(n);
-    this.believed?.show(n);
-    this.surface?.show(n, this.others.map(({ flight }) => flight.viewsAt(clock)));
-    this.splats.show([...this.model.splats(), ...this.surface?.splats() ?? []], camera, pxPerTan,
-      isWhole ? 1 : kGistRatio);
-    const pose = this.flight.poseAt(clock);
+    this.decide();
+    surface?.show(n, this.others.map((other) =>
+      ({ found: other.surface!.found, views: other.flight.n })));
+    this.splats.show([...model.splats(), ...surface?.splats() ?? []], shot);
+    const pose = flight.pose();
     if (!pose) return;
     this.vehicle.position.copy(pose.p);
     this.vehicle.quaternion.copy(pose.q);
@@ -167,87 +156,78 @@ export class RunScene {
     this.sightMark.object.visible = n > 0 && !this.candidates?.object.visible;
     this.sightMark.show(n);
     // from afar larger than life, or it would be a speck
-    const away = camera.position.distanceTo(pose.p);
-    this.body.scale.setScalar(Math.max(1, 0.028 * away / this.flight.data.radius_m));
+    const away = shot.camera.position.distanceTo(pose.p);
+    this.body.scale.setScalar(Math.max(1, 0.028 * away / flight.data.radius_m));
   }
 
   /** Where cameras see farther than this they would fill the picture. */
-  private sightMost_m(): number { return 0.25 * this.flight.workspace().size_m; }
+  private sightMost_m(): number { return 0.25 * this.flight.size_m; }
 
   /** How far what the cameras see is drawn, and whether that is as far as they see. */
   sight(): { length_m: number; isWhole: boolean } {
-    const range_m = rangeOf(this.flight.data.cameras);
-    const length_m = Math.min(range_m, this.sightMost_m());
-    return { length_m, isWhole: length_m === range_m };
+    const length_m = Math.min(this.flight.range_m, this.sightMost_m());
+    return { length_m, isWhole: length_m === this.flight.range_m };
   }
 
   /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */
   relief_m(): number { return this.surface?.isVisible() ? 2.5 * this.surface.size_m : 0; }
 
-  /** Everything that can show: structure, points, and where the vehicle may fly. */
-  bounds(): three.Box3 {
-    const { workspace_min, workspace_max } = this.flight.data;
-    return new three.Box3().setFromArray(this.outline())
-      .expandByPoint(new three.Vector3(...workspace_min))
-      .expandByPoint(new three.Vector3(...workspace_max));
+  /** From corner to corner of all that can show: structure, points, where the vehicle may fly. */
+  extent_m(): number {
+    const box = new three.Box3().setFromBufferAttribute(this.outline());
+    return box.union(this.flight.workspace).getSize(new three.Vector3()).length();
   }
 
   /**
-   * Points (x y z each) that a camera should show: what stands there, where the views are and the
-   * profile ends, and what of the layers lies elsewhere.
+   * Places that a camera should show: what stands there, where the views are and the profile ends,
+   * and what of the layers lies elsewhere.
    */
-  outline(): Float32Array {
+  outline(): three.BufferAttribute {
     const { flight, layers } = this;
-    const views = flight.data.views.pose.filter((_, i) => i % 4 < 3);
-    const profile = flight.points?.subarray(0, 3 * Math.min(flight.firstViewSample(),
-      flight.points.length / 3)) ?? [];
-    const parts: ArrayLike<number>[] = [this.shape(), views, this.aroundProfileEnd()];
-    if (layers.profile) parts.push(profile);
-    if (layers.candidates) parts.push(this.candidates?.drawn() ?? []);
-    if (layers.plan) parts.push(this.plan?.drawn() ?? []);
+    const parts: ArrayLike<number>[] = [this.shape(), this.aroundProfileEnd(),
+      flight.data.views.pose.filter((_, i) => i % 4 < 3)];
+    if (layers.profile) parts.push(flight.points?.subarray(0, 3 * flight.profileSamples()) ?? []);
+    const shown = [layers.candidates ? this.candidates?.now.map(({ at }) => at) : null,
+      layers.plan ? this.plan?.places : null];
+    for (const places of shown) for (const place of places ?? []) parts.push(place.toArray());
     for (const part of this.believed?.object.visible ? this.believed.object.children : []) {
       parts.push((part as three.Mesh).geometry.getAttribute("position").array);
     }
-    return Float32Array.from(parts.flatMap((part) => Array.from(part)));
-  }
-
-  /** Corners around the vehicle, enlarged as it is from afar, before the first view. */
-  private aroundProfileEnd(): number[] {
-    const end = this.flight.profileEnd();
-    const reach_m = 0.12 * this.sightMost_m();
-    return end.length === 0 ? [] : Array.from({ length: 8 }, (_, corner) =>
-      end.map((x, axis) => x + (corner >> axis & 1 ? reach_m : -reach_m))).flat();
-  }
-
-  /** What a pointer can name, as it is shown; `ahead` of what lies in front of it by that depth. */
-  *things(): Generator<{ at: three.Vector3; ahead: number; of: () => Picked }> {
-    const { surface, flight } = this;
-    const words = (n: number) => (n < 0 ? "the profile" : `view ${n + 1}`);
-    for (let view = 0; view < flight.count && this.frusta.object.visible; ++view) {
-      const at = flight.viewPose(view).p;
-      yield { at, ahead: 0.01, of: () => ({ at: at.clone(), what: `View ${view + 1}`, view,
-        isView: true }) };
-    }
-    for (let i = 0; surface && i < surface.found.length; ++i) {
-      if (!surface.isShown(i)) continue;
-      const at = surface.centre(i);
-      const first = surface.found[i];
-      const what = first > flight.count ? "A voxel of the true surface that no view found"
-        : `A voxel of the true surface, found first by ${words(first - 1)}`;
-      yield { at, ahead: 1e-4, of: () => ({ at, what, view: first > flight.count ? null
-        : Math.max(first - 1, 0) }) };
-    }
-    for (const { at, view } of this.model.shownPoints()) {
-      const place = at.clone();
-      yield { at, ahead: 0, of: () => ({ at: place, what: `A point that ${words(view)} brought`,
-        view: Math.max(view, 0) }) };
-    }
+    return new three.Float32BufferAttribute(parts.flatMap((part) => Array.from(part)), 3);
   }
 
   private shape(): ArrayLike<number> {
     const first = this.structure?.object.children[0] as three.Mesh | undefined;
     const places = first?.geometry.getAttribute("position").array ?? this.model.points;
-    const { workspace_min, workspace_max } = this.flight.data;
-    return places.length > 0 ? places : [...workspace_min, ...workspace_max];
+    const { min, max } = this.flight.workspace;
+    return places.length > 0 ? places : [...min.toArray(), ...max.toArray()];
+  }
+
+  /** Corners around the vehicle, enlarged as it is from afar, before the first view. */
+  private aroundProfileEnd(): number[] {
+    const end = this.flight.profileEnd()?.toArray() ?? [];
+    const reach_m = 0.12 * this.sightMost_m();
+    return end.length === 0 ? [] : Array.from({ length: 8 }, (_, corner) =>
+      end.map((x, axis) => x + (corner >> axis & 1 ? reach_m : -reach_m))).flat();
+  }
+
+  /** What a pointer can name, as it is shown. */
+  *things(): Generator<Thing> {
+    const { surface, flight } = this;
+    const words = (view: number) => (view < 0 ? "the profile" : `view ${view + 1}`);
+    for (let view = 0; view < flight.count && this.frusta.object.visible; ++view) {
+      yield { at: flight.viewPose(view).p, ahead: 0.01, view, isView: true,
+        what: () => `View ${view + 1}` };
+    }
+    for (const [i, first] of surface?.found.entries() ?? []) {
+      if (!surface!.isShown(i)) continue;
+      const isFound = first <= flight.count;
+      yield { at: surface!.centre(i), ahead: 1e-4, view: isFound ? Math.max(first - 1, 0) : null,
+        what: () => `A voxel of the true surface${isFound
+          ? `, found first by ${words(first - 1)}` : " that no view found"}` };
+    }
+    for (const { at, view } of this.model.shownPoints()) {
+      yield { at, ahead: 0, view: Math.max(view, 0), what: () => `A point that ${words(view)} brought` };
+    }
   }
 }

@@ -2,7 +2,7 @@
 // a sheet with depths of its own. That takes some nanoseconds a point, with a graphics card or
 // without, where renderers in software take microseconds.
 import * as three from "three";
-import { kFullVertex, kSurfaceLayer } from "./depth_shading";
+import { kFullVertex, kGistRatio, kSurfaceLayer, type Shot } from "./painter";
 
 const kFragment = `
 uniform sampler2D uColour;
@@ -11,60 +11,46 @@ varying vec2 vAt;
 void main() {
   float depth = texture2D(uDepth, vAt).x;
   if (depth >= 1.0) discard;
-  gl_FragColor = sRGBTransferEOTF(vec4(texture2D(uColour, vAt).rgb, 1.0));
+  gl_FragColor = sRGBTransferEOTF(vec4(texture2D(uColour, vAt).bgr, 1.0)); // of 0xrrggbb
   gl_FragDepth = depth;
 }`;
 
 export interface SplatSource {
-  readonly places: Float32Array | Int16Array; // x y z each
-  readonly toWorld: three.Matrix4; // of the places
+  readonly places: Float32Array | Float64Array; // x y z each
   readonly count: number;
   readonly size_m: number;
   readonly least_px: number;
   readonly most_px: number;
   readonly isRound: boolean; // else squares
-  readonly nearer_m?: number; // than it is, for what would be hidden
+  readonly nearer_m: number; // than it is, for what would be hidden
   readonly largerFrom: number; // points by one pixel, from this one on
-  /** 0xbbggrr as sRGB; below 0 what is not drawn. */
+  /** 0xrrggbb as sRGB; below 0 what is not drawn. */
   colourOf(point: number): number;
 }
 
-/** 0xbbggrr of 0xrrggbb. */
-export const bgr = (colour: number) =>
-  colour >> 16 | colour & 0xff00 | (colour & 255) << 16;
-
 export class Splats {
-  readonly object: three.Mesh;
   private width = 0;
   private height = 0;
   private colour = new Uint32Array();
   private depth = new Float32Array();
-  private readonly material: three.ShaderMaterial;
+  private readonly material = new three.ShaderMaterial({ vertexShader: kFullVertex,
+    fragmentShader: kFragment, uniforms: { uColour: { value: null }, uDepth: { value: null } } });
+  readonly object = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
 
   constructor() {
-    this.material = new three.ShaderMaterial({ vertexShader: kFullVertex, fragmentShader: kFragment,
-      uniforms: { uColour: { value: null }, uDepth: { value: null } } });
-    this.object = new three.Mesh(new three.PlaneGeometry(2, 2), this.material);
     this.object.frustumCulled = false;
     this.object.layers.set(kSurfaceLayer);
   }
 
-  /**
-   * All of `sources`, as a camera sees them that draws `pxPerTan` pixels a unit of tangent, of
-   * which `pxRatio` lie on a side of a pixel of their sizes.
-   */
-  show(sources: SplatSource[], camera: three.PerspectiveCamera, pxPerTan: number,
-      pxRatio: number) {
+  /** All of `sources`. */
+  show(sources: SplatSource[], { camera, pxPerTan, isWhole }: Shot) {
     this.object.visible = sources.length > 0;
     if (sources.length === 0) return;
     const height = Math.max(1, Math.round(2 * pxPerTan
       * Math.tan(three.MathUtils.degToRad(camera.fov) / 2)));
     this.clear(Math.max(1, Math.round(height * camera.aspect)), height);
     camera.updateMatrixWorld();
-    for (const source of sources) {
-      this.add(source, new three.Matrix4().multiplyMatrices(camera.projectionMatrix,
-        camera.matrixWorldInverse).multiply(source.toWorld), camera, pxPerTan, pxRatio);
-    }
+    for (const source of sources) this.add(source, camera, pxPerTan, isWhole ? 1 : kGistRatio);
     for (const { value } of Object.values(this.material.uniforms)) value.needsUpdate = true;
   }
 
@@ -82,11 +68,13 @@ export class Splats {
     this.depth.fill(1);
   }
 
-  private add(source: SplatSource, toClip: three.Matrix4, camera: three.PerspectiveCamera,
-      pxPerTan: number, pxRatio: number) {
+  /** With `pxRatio` pixels on a side of one of their sizes. */
+  private add(source: SplatSource, camera: three.PerspectiveCamera, pxPerTan: number,
+      pxRatio: number) {
     const { places, count } = source;
     const { width, height, colour, depth } = this;
-    const m = toClip.elements;
+    const m = new three.Matrix4().multiplyMatrices(camera.projectionMatrix,
+      camera.matrixWorldInverse).elements;
     const perMetre = -camera.projectionMatrix.elements[10]; // of clip depth
     for (let i = 0, at = 0; i < count; ++i, at += 3) {
       const [x, y, z] = [places[at], places[at + 1], places[at + 2]];
@@ -97,7 +85,7 @@ export class Splats {
       if (!(px > -8 && py > -8 && px < width + 8 && py < height + 8)) continue;
       const rgb = source.colourOf(i);
       if (rgb < 0) continue;
-      const nearer = Math.min(source.nearer_m ?? 0, 0.5 * w);
+      const nearer = Math.min(source.nearer_m, 0.5 * w);
       const depthOf = m[2] * x + m[6] * y + m[10] * z + m[14] - perMetre * nearer;
       const d = 0.5 + 0.5 * depthOf / (w - nearer);
       const size_px = Math.min(Math.max(source.size_m * pxPerTan / w, pxRatio * source.least_px),

@@ -2,69 +2,80 @@
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Axes } from "./axes";
-import { isDark } from "./colours";
 import type { Clock } from "./clock";
-import { make, ofRun } from "./dom";
 import { Detail } from "./detail";
-import { Painter } from "./painter";
+import { make, ofRun } from "./dom";
+import { Painter, kGistRatio } from "./painter";
 import { PaneCamera, nearestThatSees } from "./pane_camera";
-import { needsTwoSheets, stageHeight_px } from "./paper";
-import { kAim_px, kPointer_px, listenToClicks, moveByKey, pick } from "./pick";
+import { pick } from "./pick";
 import { Pointing } from "./pointing";
-import { kGistRatio, type Layers, type RunScene } from "./run_scene";
+import type { Layers, RunScene } from "./run_scene";
 import { saveFile } from "./save";
-import { Swipe } from "./swipe";
 import type { Colouring } from "./surfaces";
+import { Swipe } from "./swipe";
 
 const kLeastPane_px = 400; // narrower ones stand one above the other
 const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
+const kPointer_px = 9;
+const kAim_px = 60; // of the middle, which a key asks about
+const kTurn_rad = Math.PI / 24; // by a key
+const kZoom = 1.15;
+const kPan = 0.07; // of the view's height
 
 export class Stage {
   readonly element: HTMLElement;
+  readonly detail = new Detail(() => this.request());
   private readonly canvas = make("canvas", { tabindex: 0, role: "img", "aria-label":
     "3D view of the mission. Drag or a, d, w, s to turn, wheel or + and - to zoom, right drag or "
     + "j, l, i, k to move, 0 to fit, a click or Enter in the middle tells what is there, "
     + "arrow keys replay." });
   private readonly labels = make("div", { class: "panes" });
-  private readonly painter: Painter;
+  private readonly painter = new Painter(this.canvas);
   private readonly camera = new three.PerspectiveCamera(38, 1, 0.1, 1000);
-  private readonly paneCameras = new Map<RunScene, PaneCamera>();
+  private readonly paneCameras: Map<RunScene, PaneCamera>;
   private readonly controls: OrbitControls;
+  private readonly pointing: Pointing;
+  private readonly axes = new Axes();
+  private readonly swipe = new Swipe(() => this.invalidate());
   private shown: RunScene[];
   private isStale = false;
   private size = ""; // drawn last
-  private readonly detail = new Detail(() => this.request());
   private isFramed = false;
   private isPrinted = false;
-  private readonly pointing: Pointing;
-  private axes: Axes[] = []; // of each pane
-  private readonly swipe = new Swipe(() => this.invalidate());
 
-  constructor(private readonly scenes: RunScene[], private readonly clock: Clock,
-      private readonly name: string, goTo: (view: number) => void) {
+  /** Throws where there is no WebGL. */
+  constructor(private readonly scenes: RunScene[], clock: Clock, private readonly name: string) {
     this.shown = scenes;
-    this.pointing = new Pointing(goTo);
-    this.element = make("div", { class: "stage" }, this.canvas, this.labels,
+    this.pointing = new Pointing((view) => clock.seek(view + 1));
+    this.element = make("div", { class: "stage" }, this.canvas, this.labels, this.axes.element,
       this.pointing.element, make("span", { class: "aim" }), this.swipe.element);
-    for (const scene of scenes) {
-      scene.onLoad = () => this.invalidate();
-      this.paneCameras.set(scene, new PaneCamera(scenes[0], scene));
-    }
-    this.painter = new Painter(this.canvas);
+    this.paneCameras = new Map(scenes.map((scene) =>
+      [scene, new PaneCamera(scenes[0].flight, scene.flight)]));
+    for (const scene of scenes) scene.onLoad = () => this.invalidate();
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxPolarAngle = 0.55 * Math.PI;
-    this.controls.addEventListener("change", () => this.invalidate());
+    this.onChange(() => this.invalidate());
+    clock.onChange(() => this.invalidate());
+    this.listen();
+    this.setShown(scenes);
+  }
+
+  private listen() {
     this.canvas.addEventListener("dblclick", () => this.frame());
-    listenToClicks(this.canvas, (x, y) => this.pickAt(x, y, kPointer_px));
     this.canvas.addEventListener("keydown", (event) => this.handleKey(event));
+    let from = [0, 0];
+    this.canvas.addEventListener("pointerdown", ({ clientX, clientY }) => {
+      from = [clientX, clientY];
+    });
+    this.canvas.addEventListener("pointerup", ({ clientX, clientY, offsetX, offsetY }) => {
+      const hasMoved = Math.hypot(clientX - from[0], clientY - from[1]) > 4;
+      if (!hasMoved) this.pickAt(offsetX, offsetY, kPointer_px);
+    });
     new ResizeObserver(() => { if (this.sizeNow() !== this.size) this.resize(); })
       .observe(this.element);
     addEventListener("beforeprint", () => this.print(true));
     addEventListener("afterprint", () => this.print(false));
-    clock.onChange(() => this.invalidate());
-    this.setTheme();
-    this.setShown(scenes);
   }
 
   invalidate() {
@@ -82,12 +93,8 @@ export class Stage {
   private print(isPrinted: boolean) {
     this.isPrinted = isPrinted;
     this.element.classList.toggle("printed", isPrinted);
-    this.element.style.setProperty("--paper", `${stageHeight_px(this.shown.length,
-      needsTwoSheets(this.scenes.map(({ flight }) => flight.data)))}px`);
     this.resize();
-    if (!isPrinted || !this.isStale) return; // or it has been drawn in its new size
-    this.detail.insist();
-    this.draw();
+    if (isPrinted && this.isStale) this.drawWhole(); // or it has been drawn in its new size
   }
 
   private request() {
@@ -99,17 +106,15 @@ export class Stage {
   setShown(scenes: RunScene[]) {
     this.shown = scenes;
     for (const scene of scenes) scene.compareWith(scenes.filter((other) => other !== scene));
-    this.axes = scenes.map(() => new Axes());
-    this.labels.replaceChildren(...scenes.map((scene, i) => make("div", { class: "pane" },
-      this.scenes.length > 1
-        ? ofRun("chip", scene.flight.index, scene.flight.data.label)
-        : null, this.axes[i].element)));
+    this.labels.replaceChildren(...scenes.map(({ flight: { index, data } }) =>
+      make("div", { class: "pane" },
+        this.scenes.length > 1 ? ofRun("chip", index, data.label) : null)));
     this.resize();
   }
 
   setLayers(layers: Layers) {
     for (const scene of this.scenes) scene.setLayers(layers);
-    this.swipe.show(this.scenes.some((scene) => scene.isSwiped()));
+    this.swipe.element.hidden = !this.scenes.some((scene) => scene.isSwiped());
     this.invalidate();
   }
 
@@ -120,13 +125,14 @@ export class Stage {
 
   buttons() {
     const button = (text: string, title: string, click: () => void) =>
-      make("button", { type: "button", class: "small", title, click }, text);
-    return [this.pointing.button,
-      button("Save PNG", "The 3D view as a picture file", () => this.save()),
-      button("Full screen", "Escape leaves it", () => {
-        if (document.fullscreenElement) void document.exitFullscreen();
-        else void this.element.closest(".view")?.requestFullscreen();
-      })];
+      make("button", { class: "small", title, click }, text);
+    return [button("Fit", "Show everything that is shown; a double click does it, too",
+      () => this.frame()), this.pointing.button,
+    button("Save PNG", "The 3D view as a picture file", () => this.save()),
+    button("Full screen", "Escape leaves it", () => {
+      if (document.fullscreenElement) void document.exitFullscreen();
+      else void this.element.closest(".view")?.requestFullscreen();
+    })];
   }
 
   onChange(listener: () => void) { this.controls.addEventListener("change", listener); }
@@ -142,34 +148,34 @@ export class Stage {
 
   /** At a place of the scene's and what stands around it, from `back` of it. */
   lookAt(scene: RunScene, centre: three.Vector3, back: three.Vector3, radius_m: number) {
-    const pane = this.pane(scene);
-    const extent_m = scene.bounds().getSize(new three.Vector3()).length();
-    const target = pane.inFirst(centre);
-    this.camera.position.copy(target)
-      .addScaledVector(back, pane.scale * Math.max(3.2 * radius_m, kAround * extent_m));
-    this.controls.target.copy(target);
+    const { toFirst, scale } = this.paneCameras.get(scene)!;
+    const away_m = scale * Math.max(3.2 * radius_m, kAround * scene.extent_m());
+    this.controls.target.copy(centre).applyMatrix4(toFirst);
+    this.camera.position.copy(this.controls.target).addScaledVector(back, away_m);
     this.controls.update();
     this.invalidate();
   }
 
-  /** A whole picture, whatever it takes. */
   private save() {
-    this.detail.insist();
-    this.draw(); // in this very task, or the browser would have cleared the canvas
+    this.drawWhole(); // in this very task, or the browser would have cleared the canvas
     this.canvas.toBlob((blob) => saveFile(blob, `${this.name}.png`));
   }
 
   private handleKey(event: KeyboardEvent) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === "Enter") {
-      const { clientWidth, clientHeight } = this.canvas;
-      this.pickAt(clientWidth / 2, clientHeight / 2, kAim_px);
-    } else if (event.key === "0") {
-      this.frame();
-    } else if (moveByKey(event.key, this.camera, this.controls.target)) {
-      this.controls.update();
-      this.invalidate();
-    }
+    const { controls, canvas: { clientWidth, clientHeight } } = this;
+    const pan_px = kPan * clientHeight;
+    const actions: Record<string, () => void> = {
+      enter: () => this.pickAt(clientWidth / 2, clientHeight / 2, kAim_px),
+      0: () => this.frame(),
+      a: () => controls.rotateLeft(kTurn_rad), d: () => controls.rotateLeft(-kTurn_rad),
+      w: () => controls.rotateUp(kTurn_rad), s: () => controls.rotateUp(-kTurn_rad),
+      "+": () => controls.dollyIn(1 / kZoom), "=": () => controls.dollyIn(1 / kZoom),
+      "-": () => controls.dollyOut(1 / kZoom),
+      j: () => controls.pan(pan_px, 0), l: () => controls.pan(-pan_px, 0),
+      i: () => controls.pan(0, pan_px), k: () => controls.pan(0, -pan_px),
+    };
+    actions[event.key.toLowerCase()]?.();
   }
 
   private pickAt(x: number, y: number, near_px: number) {
@@ -182,23 +188,17 @@ export class Stage {
       pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
   }
 
-  setTheme() {
-    this.painter.background.setHex(isDark() ? 0x14181e : 0xf4f6f9);
-    this.invalidate();
-  }
-
-  cameraPosition() { return this.camera.position.toArray(); }
-  pictures() { return this.detail.drawnSoFar; }
-
   /** Puts the camera where it sees all that is shown. */
   frame() {
-    const outlines = this.shown.map((scene) => this.pane(scene).allInFirst(scene.outline()));
+    const outlines = this.shown.map((scene) =>
+      scene.outline().applyMatrix4(this.paneCameras.get(scene)!.toFirst));
     const box = new three.Box3();
-    for (const outline of outlines) box.union(new three.Box3().setFromArray(outline));
+    for (const outline of outlines) box.union(new three.Box3().setFromBufferAttribute(outline));
     const centre = box.getCenter(new three.Vector3());
     const { width, height } = this.paneSize();
     const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
-    const away = nearestThatSees(outlines, centre, back, this.camera.fov, height / width);
+    const away = Math.max(1, ...outlines.map((outline) =>
+      nearestThatSees(outline, centre, back, this.camera.fov, height / width)));
     this.isFramed = true;
     this.setDepths(away);
     this.camera.position.copy(centre).addScaledVector(back, away);
@@ -209,16 +209,14 @@ export class Stage {
 
   /** So that nothing is cut off, as far as anybody may go from a picture taken at `away`. */
   private setDepths(away: number) {
-    const extent = this.scenes[0]?.bounds().getSize(new three.Vector3()).length() ?? 1;
+    const extent = this.scenes[0]?.extent_m() ?? 1;
     this.controls.maxDistance = 4 * Math.max(away, extent);
     this.camera.far = this.controls.maxDistance + 2 * extent;
     this.camera.near = this.camera.far / 2500;
     this.camera.updateProjectionMatrix();
   }
 
-  private pane(scene: RunScene) { return this.paneCameras.get(scene)!; }
-
-  private cameraOf(scene: RunScene) { return this.pane(scene).of(this.camera); }
+  private cameraOf(scene: RunScene) { return this.paneCameras.get(scene)!.of(this.camera); }
 
   private isColumn() {
     if (this.isPrinted) return this.shown.length === 2;
@@ -245,11 +243,15 @@ export class Stage {
     const size = this.sizeNow();
     const isResized = this.size !== "" && this.size !== size;
     this.size = size;
-    if (!isResized) { this.request(); return; }
-    this.isStale = true;
-    // paper does not wait for the whole one
-    if (this.isPrinted || matchMedia("print").matches) this.detail.insist();
-    this.draw(); // now, or a resized canvas would show one empty picture
+    if (!isResized) this.request();
+    // now, or a resized canvas would show one empty picture; paper does not wait for the whole one
+    else if (this.isPrinted || matchMedia("print").matches) this.drawWhole();
+    else this.draw();
+  }
+
+  private drawWhole() {
+    this.detail.isWhole = true;
+    this.draw();
   }
 
   private draw() {
@@ -263,11 +265,11 @@ export class Stage {
     this.painter.fitCanvas(clientWidth, total, ratio);
     const pxPerTan = 0.5 * height * ratio /
       Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
-    for (const axes of this.axes) axes.show(this.camera);
+    this.axes.show(this.camera);
     this.shown.forEach((scene, i) => {
       const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
-      this.painter.paint(scene, this.clock, this.cameraOf(scene), { x, y, width, height }, pxPerTan,
-        isWhole, this.swipe.share);
+      this.painter.paint(scene, { camera: this.cameraOf(scene), pxPerTan, isWhole },
+        { x, y, width, height }, this.swipe.share);
     });
     if (isWhole) this.painter.wait();
     this.detail.drawn(performance.now() - begin);
