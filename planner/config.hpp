@@ -24,6 +24,7 @@ struct PlannerConfig {
   OccupancyConfig map;
   CloudConfig cloud;
   double floor_z_m = 0.3;  // returns below are the floor: they clear, but mark nothing
+  Box3 object_bounds_m = kEverywhere_m;  // where entropy and information count
   ProfilingConfig profiling;
   AgvsConfig agvs;
   FvsConfig fvs;
@@ -35,9 +36,12 @@ struct PlannerConfig {
   TerminationConfig termination;
 };
 
-constexpr std::array<std::string_view, 2> kPlannerPresets = {"paper", "released"};
+/// The paper's text, and its code where the text is silent; the code that its authors released in
+/// 2017 (master, 5750058); the code behind the paper with its settings of 5 August 2018 (branch
+/// frontier_viewgenerator_update, e45ff3f). See FIDELITY.md.
+constexpr std::array<std::string_view, 3> kPlannerPresets = {"paper", "released", "authors_2018"};
 
-/// Sets every switch in which the two differ (FIDELITY.md lists them) as `config.preset` says, and
+/// Sets every switch in which they differ (FIDELITY.md lists them) as `config.preset` says, and
 /// nothing else: resolution, weights and sizes stay the scenario's. Requires a name of
 /// kPlannerPresets.
 void set_preset_switches(PlannerConfig& config);

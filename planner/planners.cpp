@@ -85,24 +85,46 @@ const NamedPlanner& planner_of(const UtilityConfig& utility) {
 void set_preset_switches(PlannerConfig& config) {
   const auto known = std::find(kPlannerPresets.begin(), kPlannerPresets.end(), config.preset);
   GNBV_CHECK(known != kPlannerPresets.end(), "no preset '{}'", config.preset);
-  const bool is_released = config.preset == "released";
-  const auto set = [&](auto& value, const auto& papers, const auto& released) {
-    value = is_released ? released : papers;
+  const auto index = static_cast<std::size_t>(known - kPlannerPresets.begin());
+  const auto set = [&]<typename T>(T& value, const std::type_identity_t<T>& papers,
+                                   const std::type_identity_t<T>& released,
+                                   const std::type_identity_t<T>& authors_2018) {
+    value = std::array{papers, released, authors_2018}[index];
   };
   const PlannerConfig paper;
   FvsConfig& fvs = config.fvs;
   UtilityConfig& utility = config.utility;
-  set(config.profiling.scan_in_transit, paper.profiling.scan_in_transit, false);
-  set(fvs.frontier.max_extent_m, paper.fvs.frontier.max_extent_m, 0.0);
-  set(fvs.tries, paper.fvs.tries, 50);
-  set(fvs.pool_clusters, paper.fvs.pool_clusters, true);
-  set(fvs.views_per_layer, paper.fvs.views_per_layer, 8);
-  set(fvs.needs_visible_cluster, paper.fvs.needs_visible_cluster, false);
-  set(fvs.agvs_when_stuck, paper.fvs.agvs_when_stuck, false);
-  set(fvs.when_grid_finds_nothing, paper.fvs.when_grid_finds_nothing, false);
-  set(utility.bircher_lambda_per_m, paper.utility.bircher_lambda_per_m, 0.5);
-  set(utility.hit_voxel, paper.utility.hit_voxel, HitVoxel::excluded);
-  set(utility.prediction_hides_hits, paper.utility.prediction_hides_hits, true);
+  set(config.agvs.utility_window, 3, 2, 2);  // the third that they read is past the end
+  set(config.agvs.look_again, false, false, true);
+  set(fvs.mode, FvsMode::burst, FvsMode::single, FvsMode::burst);
+  set_mode_switches(fvs);
+  fvs.entropy_window = paper.fvs.entropy_window;
+  fvs.entropy_lag = paper.fvs.entropy_lag;
+  fvs.voxels_in_view = paper.fvs.voxels_in_view;
+  fvs.frontier.occupied_only = paper.fvs.frontier.occupied_only;
+  fvs.frontier.max_extent_m = paper.fvs.frontier.max_extent_m;
+  set(fvs.clusters, paper.fvs.clusters, paper.fvs.clusters, 5);
+  set(fvs.retries, 0, 0, 2);
+  set(fvs.culling, Culling::map, Culling::map, Culling::front);
+  set(fvs.fov_margin_m, 0.0, 0.0, 0.70711);
+  set(fvs.first_bearing_twice, false, true, true);
+  set(fvs.keeps_blind, false, false, true);
+  set(config.validity.leg_radius_m, 0.0, 0.0, 0.5);
+  if (config.preset == "authors_2018") config.validity.collision_radius_m = 0.8;
+  set(fvs.pool_clusters, paper.fvs.pool_clusters, true, false);
+  set(fvs.views_per_layer, paper.fvs.views_per_layer, 8, 8);
+  set(fvs.radius_m, paper.fvs.radius_m, 3.5, 3.5);
+  set(fvs.needs_visible_cluster, false, false, false);
+  set(fvs.agvs_when_stuck, true, false, false);
+  set(fvs.when_grid_finds_nothing, true, false, false);
+  set(config.profiling.scan_in_transit, paper.profiling.scan_in_transit, false, false);
+  set(config.termination.within_plans, true, true, false);
+  const double settled_percent = paper.termination.entropy_change_percent;
+  set(config.termination.entropy_change_percent, settled_percent, settled_percent, 0.0);
+  set(utility.bircher_lambda_per_m, paper.utility.bircher_lambda_per_m, 0.5, 0.2);
+  set(utility.hit_voxel, HitVoxel::counted, HitVoxel::excluded, HitVoxel::excluded);
+  set(utility.prediction_hides_hits, false, true, true);
+  set(utility.leaving_rays, LeavingRays::counted, LeavingRays::dropped, LeavingRays::dropped);
 }
 
 PlannerTraits traits_of(const PlannerConfig& config) {
@@ -147,6 +169,7 @@ PlannerModel make_model(const PlannerConfig& config, const Box3& workspace_m,
   const BeliefConfig belief = {.map = config.map,
                                .cloud = config.cloud,
                                .floor_z_m = config.floor_z_m,
+                               .object_bounds_m = config.object_bounds_m,
                                .shadow = config.utility.shadow,
                                .keeps_shadow = traits_of(config).keeps_shadow};
   return {belief, config.validity, workspace_m, cameras, lidars, seed, std::move(no_fly)};

@@ -230,6 +230,7 @@ class Keys {
 
 // The fields() of these configs are called from other files than their own; Keys finds the rest.
 void fields(const Keys& key, Scenario& c);
+void fields(const Keys& key, Box3& c);
 void fields(const Keys& key, CameraConfig& c);
 void fields(const Keys& key, LidarConfig& c);
 void fields(const Keys& key, VehicleConfig& c);

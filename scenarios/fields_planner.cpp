@@ -6,6 +6,10 @@ namespace {
 
 constexpr std::string_view kUtility = "planner.utility.name";
 constexpr Range kWeight = {0, 1e9};
+void repeated_by(const Keys& key, RepeatedBy& value) {
+  key("repeated_by", value, {{RepeatedBy::places, "places"}, {RepeatedBy::utilities, "utilities"}},
+      "Back and forth: to the place of two views before, or to its utility, the authors' code.");
+}
 
 // What the planner of a scenario does, and so which settings it reads.
 
@@ -35,6 +39,8 @@ void fields(const Keys& key, OccupancyConfig& c) {
   key("clamp_max", c.clamp_max, inside(0.5, 1), "Occupancy never rises above this.");
   key("occupied_min", c.occupied_min, inside(0, 1), "From here up a voxel is occupied.");
   key("free_max", c.free_max, inside(0, 1), "Up to here a voxel is free.");
+  key("no_return", c.no_return, {{NoReturn::free, "free"}, {NoReturn::unknown, "unknown"}},
+      "What a pixel without a return means up to range_max_m of its camera.");
 }
 
 void fields(const Keys& key, CloudConfig& c) {
@@ -63,6 +69,14 @@ void fields(const Keys& key, AgvsConfig& c) {
   papers("step_m", c.step_m, positive(100), "Distance of the grid's positions at scale 1.");
   papers.angle("yaw_step_deg", c.yaw_step_rad, positive(180), "Between the yaws of a position.");
   key("rotation_only", c.rotation_only, "Offer the current position with other yaws at scale 1.");
+  key.only_if(c.rotation_only, ".rotation_only")(
+      "rotation_at_all_scales", c.rotation_at_all_scales,
+      "rotation_only: at every scale; false: at scale 1 alone.");
+  key("current_pose", c.current_pose,
+      "Offer the current pose itself at scale 1, which counts unless it is a recent one.");
+  key("look_again", c.look_again,
+      "Where no view has a utility above 0, take another one from where the vehicle is, of utility "
+      "0: the authors' code; false: as if no view were valid.");
   key("scales", c.scales, "Grow the grid at a local minimum.");
   const Keys grown = key.only_if(c.scales, ".scales");
   grown("scale_factor", c.scale_factor, {1.1, 100}, "The grid grows by this factor.");
@@ -72,6 +86,7 @@ void fields(const Keys& key, AgvsConfig& c) {
   grown("utility_window", c.utility_window, {1, 1e6}, "Views; see utility_threshold.");
   grown("repeated_moves", c.repeated_moves, {0, 1e6},
         "Also a local minimum: so many moves back and forth; 0: never.");
+  repeated_by(grown.only_if(c.repeated_moves != 0, ".repeated_moves"), c.repeated_by);
   grown("entropy_threshold_nat", c.entropy_threshold_nat, {0, 1},
         "Also a local minimum: over entropy_window views, none changed the total entropy by more "
         "than this per voxel of its frusta; 0: never.");
@@ -85,9 +100,15 @@ void fields(const Keys& key, FrontierConfig& c) {
   key("occupied_only", c.occupied_only,
       "A frontier voxel is occupied; false: points in it will do, as those of thin parts.");
   const Keys sampled = key.only_if(samples_frontiers, "planner.fvs.enabled");
-  sampled("neighbour_voxels", c.neighbour_voxels, {1, 100},
-          "Frontier voxels within this distance along each axis are one cluster.");
+  using enum FrontierLinking;
+  sampled("linking", c.linking, {{face, "face"}, {chebyshev, "chebyshev"}, {pcl, "pcl"}},
+          "Neighbours are one cluster: voxels that share a face; those up to neighbour_voxels away "
+          "along each axis; or as in the authors' use of PCL, where rounding joins some faces.");
+  sampled.only_if(c.linking == chebyshev, ".linking")(
+      "neighbour_voxels", c.neighbour_voxels, {1, 100}, "chebyshev: distance that joins voxels.");
   sampled("min_cluster_voxels", c.min_cluster_voxels, {1, 1e6}, "Smaller ones are left out.");
+  sampled("max_cluster_voxels", c.max_cluster_voxels, {0, 1e6},
+          "Larger ones are left out, too; 0: none.");
   sampled("max_extent_m", c.max_extent_m, {0, 1e4},
           "Larger clusters are cut, into parts of any size; 0: never, the paper to the letter.");
 }
@@ -95,20 +116,48 @@ void fields(const Keys& key, FrontierConfig& c) {
 void fields(const Keys& key, FvsConfig& c) {
   key("enabled", c.enabled, "Whether frontier views are sampled at a local minimum.");
   const Keys sampled = key.only_if(c.enabled, ".enabled");
+  const FvsMode before = c.mode;
+  sampled("mode", c.mode, {{FvsMode::burst, "burst"}, {FvsMode::single, "single"}},
+          "burst: views that cover the nearest clusters, flown one after the other, the paper; "
+          "single: the one of the highest utility. Sets the switches in which they differ.");
+  if (c.mode != before) set_mode_switches(c);
+  const Keys in_bursts = sampled.only_if(c.mode == FvsMode::burst, ".mode");
+  const Keys singly = sampled.only_if(c.mode == FvsMode::single, ".mode");
   sampled("entropy_threshold_nat", c.entropy_threshold_nat, {0, 1},
           "Local minimum: over entropy_window views, none changed the total entropy by more than "
-          "this per voxel of its frusta; 0: never.");
-  sampled.only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat")(
-      "entropy_window", c.entropy_window, {1, 1000}, "Views; see entropy_threshold_nat.");
+          "this per voxel in view; 0: never.");
+  const Keys by_entropy = sampled.only_if(c.entropy_threshold_nat != 0.0, ".entropy_threshold_nat");
+  by_entropy("entropy_window", c.entropy_window, {1, 1000}, "Views; see entropy_threshold_nat.");
+  by_entropy("entropy_lag", c.entropy_lag, {0, 1000}, "The last views, which do not count yet.");
+  by_entropy("voxels_in_view", c.voxels_in_view,
+             {{VoxelsInView::frusta, "frusta"}, {VoxelsInView::quarter_frustum, "quarter_frustum"}},
+             "frusta: all cameras' up to maximum range; quarter_frustum: a quarter of the first "
+             "one's, the authors' code.");
   key.section("frontier", c.frontier, "Which voxels are frontiers, and how they cluster.");
-  sampled("order", c.order,
-          {{ClusterOrder::nearest, "nearest"}, {ClusterOrder::largest, "largest"}},
-          "Which clusters come first.");
-  sampled("tries", c.tries, {1, 1e6},
-          "Clusters, in this order, until one has a valid view; 1: the paper.");
-  sampled("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
-  sampled("looks_max", c.looks_max, {0, 1e6},
-          "Frontier views at a cluster before it is given up; 0: any number.");
+  in_bursts("clusters", c.clusters, {1, 1e6}, "That one burst covers, the nearest ones.");
+  in_bursts("clusters_growth", c.clusters_growth, {0, 1e6},
+            "By which they grow for good after a burst without a view.");
+  in_bursts("retries", c.retries, {0, 1e6},
+            "Bursts without a view that are followed by another one, in all of the mission; after "
+            "them agvs_when_stuck decides.");
+  in_bursts("share_to_cover", c.share_to_cover, {0, 1},
+            "A cluster is covered when one view sees this share of the points left around it.");
+  in_bursts("culling", c.culling, {{Culling::map, "map"}, {Culling::front, "front"}},
+            "What hides a point: occupied voxels of the map, or lying behind the front of all of "
+            "them, the authors' code.");
+  in_bursts("fov_margin_m", c.fov_margin_m, {0, 100},
+            "From a cluster's centroid to the sides of the camera's field of view.");
+  in_bursts("keeps_blind", c.keeps_blind,
+            "At a bearing, keep all views that see none of the points left, up to the first that "
+            "sees one: the authors' code.");
+  sampled("first_bearing_twice", c.first_bearing_twice, "Sample the first view of a layer again.");
+  singly("order", c.order, {{ClusterOrder::nearest, "nearest"}, {ClusterOrder::largest, "largest"}},
+         "Which clusters come first.");
+  singly("tries", c.tries, {1, 1e6},
+         "Clusters, in this order, until one has a valid view; 1: the paper.");
+  singly("pool_clusters", c.pool_clusters, "The views of all these clusters compete.");
+  singly("looks_max", c.looks_max, {0, 1e6},
+         "Frontier views at a cluster before it is given up; 0: any number.");
   sampled("views_per_layer", c.views_per_layer, {1, 360}, "Around the cluster.");
   sampled("radius_m", c.radius_m, positive(1e3), "Of the cylinder of views.");
   sampled("layer_step_m", c.layer_step_m, {0, 1e3}, "Height between its three layers.");
@@ -129,6 +178,8 @@ void fields(const Keys& key, PathSearchConfig& c) {
 void fields(const Keys& key, ValidityConfig& c) {
   key.of_papers_setting()("collision_radius_m", c.collision_radius_m, positive(100),
                           "Of the sphere that may touch no occupied voxel.");
+  key("leg_radius_m", c.leg_radius_m, {0, 100},
+      "Of the sphere for which a straight way to a view has to be clear; 0: collision_radius_m.");
   key("z_min_m", c.z_min_m, {-1e4, 1e4}, "No view lies below this.");
   key("recent_poses", c.recent_poses, {0, 1e6}, "The last views, none taken again.");
   const Keys recent = key.only_if(c.recent_poses != 0, ".recent_poses");
@@ -177,8 +228,7 @@ void fields(const Keys& key, UtilityConfig& c) {
   const Keys counted = where(reads.baseline);
   eq2("alpha", c.alpha, kWeight, "Weight of information, Eq. (2).");
   eq2("beta", c.beta, kWeight, "Weight of density, Eq. (2).");
-  where(reads.eq2 || (reads.baseline && c.prediction_hides_hits))("gamma", c.gamma, kWeight,
-                                                                  "Weight of prediction, Eq. (2).");
+  eq2("gamma", c.gamma, kWeight, "Weight of prediction, Eq. (2).");
   where(reads.lambda)("lambda_per_m", c.lambda_per_m, kWeight, "Decay with distance, Eq. (2).");
   eq2("density_term", c.density_term,
       {{DensityTerm::sparse, "sparse"}, {DensityTerm::literal, "literal"}},
@@ -196,8 +246,14 @@ void fields(const Keys& key, UtilityConfig& c) {
   counted("hit_voxel", c.hit_voxel,
           {{HitVoxel::counted, "counted"}, {HitVoxel::excluded, "excluded"}},
           "bircher, isler: whether the voxel that ends a ray counts; excluded: released slip.");
-  counted("prediction_hides_hits", c.prediction_hides_hits,
-          "A hit counts only where the prediction was hit too; released slip.");
+  counted(
+      "leaving_rays", c.leaving_rays,
+      {{LeavingRays::counted, "counted"}, {LeavingRays::dropped, "dropped"}},
+      "bircher, isler: whether rays that end outside the object bounds count; dropped: released "
+      "slip.");
+  eq2.only_if(c.gamma > 0.0, ".gamma")(
+      "prediction_hides_hits", c.prediction_hides_hits,
+      "A surface counts only on rays that meet predicted surface, too; released slip.");
   where(reads.visibility)(
       "legacy_visibility", c.legacy_visibility,
       "Visibility multiplies P instead of 1 - P, as in the released code of Delmerico et al.");
@@ -264,6 +320,10 @@ void fields(const Keys& key, TerminationConfig& c) {
       "entropy_window", c.entropy_window, {1, 1e6}, "Views; see entropy_change_percent.");
   by_entropy("repeated_moves", c.repeated_moves, {0, 1e6},
              "Over after so many moves back and forth; 0: never.");
+  repeated_by(by_entropy.only_if(c.repeated_moves != 0, ".repeated_moves"), c.repeated_by);
+  key.only_if(scores_views, kUtility)(
+      "within_plans", c.within_plans,
+      "A burst may end before its last view; false: it is flown to its end, the authors' code.");
   papers("max_distance_m", c.max_distance_m, {0, 1e9},
          "Over when the way to the next view would make the planned way longer; 0: no limit.");
   papers("max_flight_time_s", c.max_flight_time_s, {0, 1e9},
@@ -282,12 +342,15 @@ void fields(const Keys& key, TerminationConfig& c) {
 void fields(const Keys& key, PlannerConfig& c) {
   const std::string before = c.preset;
   key("preset", c.preset, kPlannerPresets,
-      "paper, or the authors' released code: sets the switches in which they differ.");
+      "The paper, its authors' code of 2017 (released) or the code behind it (authors_2018): sets "
+      "the switches in which they differ.");
   if (c.preset != before) set_preset_switches(c);
   const Keys scoring = key.only_if(scores_views, kUtility);
   key.section("map", c.map, "The occupancy grid.");
   key.section("cloud", c.cloud, "The surface cloud.");
   key("floor_z_m", c.floor_z_m, {-1e4, 1e4}, "Returns below are floor: they clear, mark nothing.");
+  key.of_papers_setting().section("object_bounds_m", c.object_bounds_m,
+                                  "Where entropy and information count, world ENU.");
   key.section("profiling", c.profiling, "The rough scan before the first view.");
   scoring.section("agvs", c.agvs, "Adaptive grid view sampling.");
   scoring.section("fvs", c.fvs, "Frontier view sampling.");

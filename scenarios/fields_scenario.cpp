@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
@@ -32,6 +34,8 @@ void fields(const Keys& key, StructureConfig& c) {
   unless_files("builtin", c.builtin, kStructureNames, "Built-in structure, without a file.");
   key.section("file", c.file, "A mesh of your own.");
   key.list("files", c.files, {0, 256}, "More meshes of the same structure, each placed by itself.");
+  key("offset_m", c.offset_m, {-1e4, 1e4},
+      "Moves all of the structure, a built-in one, too; world axes. `--mesh` sets it to 0.");
   key("ground", c.ground, "Whether the plane z = 0 is solid ground, where no terrain is given.");
 }
 
@@ -43,6 +47,13 @@ void fields(const Keys& key, ObstacleConfig& c) {
 void fields(const Keys& key, NoFlyConfig& c) { fields(key, c.box_m); }
 
 void fields(const Keys& key, ScoreConfig& c) {
+  using enum ScoreReference;
+  key("reference", c.reference, {{outside, "outside"}, {area_samples, "area_samples"}},
+      "Voxels that coverage counts: with surface that sees out, or with a point of a sparse sample "
+      "of all surface, as the paper's authors count.");
+  key.only_if(c.reference == area_samples, ".reference")(
+      "area_samples", c.area_samples, {1, 1e7},
+      "Points of that sample, drawn by area above planner.floor_z_m; the same for all missions.");
   key.of_papers_setting().section("region_m", c.region_m, "What is scored, world ENU.");
   key("sizes_m", c.sizes_m, {0.01, 10},
       "Edges of the voxels of which coverage is shown; the paper's 0.05, 0.10 and 0.50 are always "
@@ -50,6 +61,13 @@ void fields(const Keys& key, ScoreConfig& c) {
 }
 
 void fields(const Keys& key, StartConfig& c) {
+  std::vector<std::string_view> names;
+  for (const NamedStart& start : kNamedStarts) names.push_back(start.name);
+  const std::string before = c.preset;
+  key("preset", c.preset, names, "Sets position and yaw to those of the authors' code.");
+  if (c.preset != before && c.preset != "own") {
+    c.pose = std::ranges::find(kNamedStarts, c.preset, &NamedStart::name)->pose;
+  }
   key("position_m", c.pose.p_world_m, {-1e4, 1e4}, "Where the views begin, world ENU.");
   key.angle("yaw_deg", c.pose.yaw_rad, {-360, 360}, "Heading there, 0 = east, 90 = north.");
   key("jitter_m", c.jitter_m, {0, 1e4}, "The seed moves it by up to this, in the navigation box.");
@@ -58,8 +76,8 @@ void fields(const Keys& key, StartConfig& c) {
 
 void fields(const Keys& key, BenchmarkConfig& c) {
   key("stop_at_coverage", c.stop_at_coverage, {0, 1},
-      "Over when the cloud covers this share of the voxels of 0.05 m with surface seen from "
-      "outside, coverage.final in summary.json; 0: never.");
+      "Over when the cloud covers this share of the voxels of 0.05 m that score.reference counts, "
+      "coverage.final in summary.json; 0: never.");
 }
 
 void fields(const Keys& key, Scenario& c) {

@@ -191,6 +191,10 @@ void fields(const Keys& key, CameraConfig& c) {
   key.angle("fov_y_deg", c.fov_y_rad, {1, 170}, "Vertical field of view.");
   key("range_min_m", c.range_min_m, {0, 1e3}, "Along the optical axis; nearer ones are invalid.");
   key("range_max_m", c.range_max_m, positive(1e3), "Along the optical axis; none is farther.");
+  key("return_max_m", c.return_max_m, {0, 1e3},
+      "Deeper surface gives no return, and planner.map.no_return says what that means; 0: all up "
+      "to "
+      "range_max_m returns.");
   key("rate_hz", c.rate_hz, {0, 250},
       "Frames per second in flight, at most one per tick; 0: only one at each view.");
   key("drop_probability", c.drop_probability, {0, 1}, "Of losing a frame, at a view or in flight.");

@@ -81,11 +81,14 @@ void check_world(const Scenario& s, Problems& out) {
   check_mesh_files(s, out);
   check_obstacles(s, out);
   check_no_fly(s, out);
-  const std::string region = "score.region_m";
-  if (!check_box(s.score.region_m, region, out)) return;
-  require(s.score.region_m.intersects(s.workspace_m), out,
-          {region + ".max", region + ".min", "workspace_m.max", "workspace_m.min"},
-          "score.region_m has nothing of the workspace in it");
+  const auto check_meets_workspace = [&](const std::string& key, const Box3& box_m) {
+    if (!check_box(box_m, key, out)) return;
+    require(box_m.intersects(s.workspace_m), out,
+            {key + ".max", key + ".min", "workspace_m.max", "workspace_m.min"},
+            "{} has nothing of the workspace in it", key);
+  };
+  check_meets_workspace("score.region_m", s.score.region_m);
+  check_meets_workspace("planner.object_bounds_m", s.planner.object_bounds_m);
 }
 
 /// Of either list. Files and messages tell its sensors apart by their names.
@@ -265,6 +268,20 @@ Problems problems(const Scenario& scenario) {
   check_map_thresholds(scenario.planner.map, out);
   check_utility(scenario.planner.utility, out);
   return out;
+}
+
+std::string clearing_note(const Scenario& scenario) {
+  if (scenario.planner.map.no_return != NoReturn::free) return "";
+  std::string where;
+  for (const CameraConfig& camera : scenario.cameras) {
+    const double end_m = return_end_m(camera);
+    if (end_m >= camera.range_max_m) continue;
+    where += fmt::format("{} {} from {} to {} m", where.empty() ? "" : ",", camera.name, end_m,
+                         camera.range_max_m);
+  }
+  if (where.empty()) return "";
+  return "surface too deep for a return is cleared through, as planner.map.no_return is free:" +
+         where;
 }
 
 }  // namespace gnbv

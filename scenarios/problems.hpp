@@ -20,6 +20,10 @@ using Problems = std::vector<Problem>;
 /// All of them; none for a scenario that can be run.
 Problems problems(const Scenario& scenario);
 
+/// What to say of a scenario whose cameras clear through surface: where pixels without a return
+/// mean free space (planner.map.no_return), and returns end before that does. "" for any other.
+std::string clearing_note(const Scenario& scenario);
+
 /// Its part: adds what is wrong with vehicle, guidance and wind.
 void check_vehicle(const Scenario& scenario, Problems& out);
 

@@ -60,6 +60,7 @@ struct CameraConfig {
   double fov_y_rad = deg_to_rad(45.0);
   double range_min_m = 0.3;       // along the optical axis; nearer returns are invalid
   double range_max_m = 8.0;       // along the optical axis (a plane, not a sphere)
+  double return_max_m = 0.0;      // deeper surface gives no return; 0: all up to range_max_m
   double rate_hz = 0.0;           // frames a second in flight; 0: none but one at each view
   double drop_probability = 0.0;  // of a frame to be lost
   Vec3 p_body_m = Vec3::Zero();
@@ -69,6 +70,12 @@ struct CameraConfig {
   DepthNoiseConfig noise = {};
   std::optional<GimbalConfig> gimbal = {};  // nothing: fixed at pitch_rad
 };
+
+/// Where the camera's returns end, along its optical axis. Beyond, up to range_max_m, a pixel says
+/// "no return", whatever stands there.
+inline double return_end_m(const CameraConfig& c) {
+  return c.return_max_m > 0.0 ? std::min(c.return_max_m, c.range_max_m) : c.range_max_m;
+}
 
 /// Volume of the pyramid that the camera sees up to its maximum range.
 inline double frustum_m3(const CameraConfig& c) {

@@ -54,7 +54,7 @@ struct DepthCapture {
                           run.distances_m);
     const auto range_min_m = static_cast<float>(camera.config.range_min_m);
     for (std::size_t tile = 0; tile < run.distances_m.size(); ++tile) {
-      // the rays end at range_max_m, so only depths that are too small are left to reject
+      // the rays end where returns do, so only depths that are too small are left to reject
       Eigen::Map<Eigen::Array<float, RayPacket::kRays, 1>> depths_m(run.distances_m[tile].data());
       depths_m = (depths_m < range_min_m).select(kInvalidRange, depths_m);
       tiles.put_distances(run, tile, frame.depth_m);
@@ -106,7 +106,7 @@ struct DepthCapture {
     const double sigma_m = depth_sigma_m(camera, true_m, theta_rad);
     const double read_m = true_m + sigma_m * deviate(key, Stream::depth_noise, frame.camera, pixel);
     return measured_range(true_m, static_cast<float>(read_m), camera.config.range_min_m,
-                          camera.config.range_max_m);
+                          return_end_m(camera.config));
   }
 };
 
@@ -162,8 +162,8 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
   DepthFrame frame;
   frame.camera = camera_index;
   frame.T_world_camera = T_world_body * camera.T_body_camera;
-  const double range_max_m = camera.config.range_max_m;
-  const double far_m = range_max_m + kFarthest_sigmas * depth_sigma_m(camera, range_max_m, 0.0);
+  const double end_m = return_end_m(camera.config);
+  const double far_m = end_m + kFarthest_sigmas * depth_sigma_m(camera, end_m, 0.0);
   const DepthCapture capture = {scene,
                                 camera,
                                 key,

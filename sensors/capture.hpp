@@ -13,7 +13,7 @@ namespace gnbv {
 
 /// Depth along the optical axis for every pixel centre, with the noise of CameraConfig::noise.
 /// kInvalidRange: the surface or its reading is nearer than range_min_m, or too slanted to return
-/// anything. kNoReturn: no surface, or a reading beyond range_max_m. The same at any number of
+/// anything. kNoReturn: no surface, or a reading beyond return_end_m(). The same at any number of
 /// threads. `T_world_body` is the true pose, which the frame carries.
 DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Isometry& T_world_body, const NoiseKey& key, int threads);

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 
@@ -63,9 +64,10 @@ bool is_sized_coverage(const std::string& name) {
 }
 
 BaselineSubject subject_of(const RunFigures& run) {
-  return {run.scenario, fs::path(run.structure).filename().string(),
-          run.utility,  run.preset,
-          run.seed,     run.version};
+  const std::string counted = run.area_samples == 0 ? "" : fmt::format(" {}", run.area_samples);
+  return {
+      run.scenario, fs::path(run.structure).filename().string(), run.utility, run.preset, run.seed,
+      run.version,  reference_name(run.area_samples) + counted};
 }
 
 /// One baseline file, for messages.
@@ -81,7 +83,7 @@ class File {
   Baseline baseline() const {
     Baseline baseline{
         .of = {text({"of", "scenario"}), text({"of", "structure"}), text({"of", "utility"}),
-               text({"of", "preset"}), seed(), text({"of", "version"})},
+               text({"of", "preset"}), seed(), text({"of", "version"}), text({"of", "reference"})},
         .termination = text({"termination"})};
     for (const BaselineMetric& known : gated_metrics({})) {
       baseline.metrics.push_back(metric(known.name));
@@ -154,6 +156,7 @@ void need_same(const BaselineSubject& baseline, const BaselineSubject& run, bool
   compare("utility", baseline.utility, run.utility);
   compare("preset", baseline.preset, run.preset);
   compare("seed", baseline.seed, run.seed);
+  compare("reference", baseline.reference, run.reference);
   if (needs_version) compare("version", baseline.version, run.version);
   if (differences.empty()) return;
   throw BadInput(fmt::format("{}: is of something else:{}", path.string(), differences));
@@ -201,7 +204,8 @@ std::string to_json(const Baseline& baseline) {
                  {"utility", of.utility},
                  {"preset", of.preset},
                  {"seed", of.seed},
-                 {"version", of.version}}},
+                 {"version", of.version},
+                 {"reference", of.reference}}},
                {"termination", baseline.termination},
                {"metrics", metrics}};
   if (baseline.result_sha256) json["result_sha256"] = *baseline.result_sha256;

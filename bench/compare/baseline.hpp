@@ -29,7 +29,8 @@ struct BaselineSubject {
   std::string utility;
   std::string preset;
   std::uint64_t seed = 0;
-  std::string version;  // of the program
+  std::string version;    // of the program
+  std::string reference;  // "outside", "area_samples 150000": what coverage counts
 };
 
 struct Baseline {
@@ -45,7 +46,7 @@ struct Baseline {
 Baseline read_baseline(const std::filesystem::path& path);
 std::string to_json(const Baseline& baseline);
 
-/// Of a run: coverage_0.05, coverage_0.10, coverage_0.50 (seen from outside), precision, recall and
+/// Of a run: coverage_0.05, coverage_0.10, coverage_0.50, precision, recall and
 /// f (at 0.05 m), coverage at each further size that the run was scored at (coverage_0.02),
 /// chamfer_m, density (points in a voxel that holds any), straight_m, flight_time_s, iterations,
 /// entropy_reduction_nat. Tolerances are 0.02 for shares, 0.001 m for Chamfer, a tenth of the value

@@ -168,12 +168,14 @@ double least_p_holm(const Contrast& contrast) {
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
   Comparison comparison;
-  auto& [metrics, scenarios, methods, base, budgets, figures, ranks, same_missions] = comparison;
+  auto& [metrics, scenarios, area_samples, methods, base, budgets, figures, ranks, same_missions] =
+      comparison;
   std::vector<const RunFigures*> all;
   std::vector<std::vector<const RunFigures*>> by_scenario;
   for (const ComparedRun& run : runs) {
     const std::size_t scenario = index_in(scenarios, run.scenario);
     by_scenario.resize(scenarios.size());
+    area_samples.resize(scenarios.size(), run.figures.area_samples);
     by_scenario[scenario].push_back(&run.figures);
     all.push_back(&run.figures);
     index_in(methods, run.method);

@@ -75,6 +75,7 @@ struct OverallRank {
 struct Comparison {
   std::vector<RunMetric> metrics;  // metrics_of() all runs
   std::vector<std::string> scenarios;
+  std::vector<std::size_t> area_samples;  // by scenario, of the reference: what coverage counts
   std::vector<std::string> methods;
   std::size_t baseline = 0;
   std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "bench/compare/comparison.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
@@ -201,6 +203,9 @@ void add_power_notes(std::vector<std::string>& notes, const Comparison& comparis
 }
 
 std::vector<std::string> notes(const Comparison& comparison) {
+  const std::vector<std::size_t>& samples = comparison.area_samples;
+  const bool is_one_reference =
+      std::ranges::adjacent_find(samples, std::not_equal_to()) == samples.end();
   std::vector<std::string> all = answers(comparison);
   for (const auto& [later, earlier] : comparison.same_missions) {
     all.push_back(fmt::format("{} flew the very missions of {}: what sets them apart has no effect",
@@ -213,9 +218,14 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "interval (Student's t); p: two-sided signed-rank test (Wilcoxon); Holm: over "
       "the methods of a scenario and metric, not over metrics",
       comparison.methods[comparison.baseline]));
+  for (std::size_t s = 0; s < comparison.scenarios.size(); ++s) {
+    const std::string where = is_one_reference ? "" : comparison.scenarios[s] + ": ";
+    all.push_back(
+        fmt::format("{}coverage of voxels {}", where, reference_words(comparison.area_samples[s])));
+    if (is_one_reference) break;
+  }
   all.push_back(fmt::format(
-      "coverage of voxels with visible surface of a tenth of their face; {}distance in straight "
-      "lines between views, profile apart; flight time of the whole mission",
+      "{}distance in straight lines between views, profile apart; flight time of the whole mission",
       has_ceiling(comparison) ? "share of ceiling: over what the leaf filter lets through of all "
                                 "that legal viewpoints see; "
                               : ""));

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/score/run_figures.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 
@@ -18,6 +21,7 @@ namespace {
 using Row = std::vector<TableCell>;
 
 constexpr const char* kCut = "ours, cut";
+constexpr const char* kPlace = "ours below";
 constexpr const char* kCutNote = "ours, cut: after as many views as the paper's row";
 
 /// Runs that differ in their seeds alone.
@@ -193,6 +197,74 @@ std::vector<Group> groups_of(const PaperTable& paper, std::span<const RunFigures
   return groups;
 }
 
+/// What the runs had reached where they stand beside the paper's row: after as many views, or at
+/// the end of those that took fewer; entropy and density at the end.
+std::vector<Reached> reached_beside(const Seeds& runs, const PaperRow& paper) {
+  const auto views = static_cast<std::size_t>(paper.iterations.value_or(0));
+  return reached_by(runs, 0.0, [&](const RunFigures& run) {
+    Reached reached = views > 0 ? after_views(run, views) : Reached{};
+    reached.merge(at_end(run));
+    return reached;
+  });
+}
+
+/// Of each figure that the paper prints, the share of our runs that lie below it.
+void add_place(const std::string& name, const Seeds& runs, const PaperRow& paper,
+               TextTable& table) {
+  const std::vector<Reached> ours = reached_beside(runs, paper);
+  Row& row = table.rows.emplace_back(Row{{name}, {kPlace}});
+  const Reached printed = printed_in(paper);
+  for (const TableColumn& column : std::span(table.columns).subspan(row.size())) {
+    TableCell& cell = row.emplace_back();
+    const auto at = printed.find(column.key);
+    if (at == printed.end() || column.key == "iterations") continue;
+    std::vector<double> values;
+    for (const Reached& one : ours) {
+      if (const auto mine = one.find(column.key); mine != one.end()) {
+        values.push_back(mine->second);
+      }
+    }
+    if (values.size() < ours.size()) continue;
+    const double share = share_below(values, at->second);
+    cell = {fmt::format("{:.0f} % below", 100.0 * share), {share}};
+  }
+}
+
+/// "coverage at 0.05 m Proposed > Isler: 31 %, ...", of what the paper prints for each of its
+/// methods: how many sets of single runs, one of each method, have its order.
+std::string order_note(const PaperTable& paper, const std::vector<Group>& groups) {
+  constexpr std::array<std::pair<const char*, const char*>, 3> kOrdered = {
+      {{"coverage_0.05", "coverage at 0.05 m"},
+       {"distance_m", "distance"},
+       {"entropy_reduction", "entropy reduction"}}};
+  std::string note;
+  for (const auto& [key, words] : kOrdered) {
+    std::vector<std::pair<double, const Group*>> printed;
+    for (const Group& group : groups) {
+      const PaperRow* const row = find_row(paper, group.utility);
+      if (row == nullptr || group.runs.size() < 2) continue;
+      const Reached figures = printed_in(*row);
+      if (const auto at = figures.find(key); at != figures.end()) {
+        printed.emplace_back(at->second, &group);
+      }
+    }
+    std::ranges::stable_sort(printed, std::greater{}, &std::pair<double, const Group*>::first);
+    if (printed.size() < 2) continue;
+    std::vector<std::vector<double>> values;
+    std::string order;
+    for (const auto& [figure, group] : printed) {
+      order += (order.empty() ? "" : " > ") + group->name;
+      std::vector<double>& of_group = values.emplace_back();
+      for (const Reached& one : reached_beside(group->runs, *find_row(paper, group->utility))) {
+        of_group.push_back(one.at(key));
+      }
+    }
+    note += fmt::format("{}{} {}: {:.0f} %", note.empty() ? "" : ", ", words, order,
+                        100.0 * share_descending(values));
+  }
+  return note;
+}
+
 /// Ours, and ours after as many views as the paper's row took where a run took more.
 void add_ours(const std::string& name, const Seeds& runs, const PaperRow* paper, double ceiling,
               TextTable& table) {
@@ -283,9 +355,9 @@ std::string runs_note(const std::string& name, const Seeds& runs) {
 void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Group>& groups,
                bool prints_time, const std::optional<Ceiling>& ceiling) {
   std::vector<std::string>& notes = table.notes;
-  notes.emplace_back(
-      "coverage: of voxels of that size, ours of those with visible surface of a tenth of their "
-      "face");
+  notes.push_back(
+      fmt::format("coverage: of voxels of that size, ours of those {}",
+                  reference_words(groups.empty() ? 0 : groups[0].runs[0]->area_samples)));
   if (std::any_of(table.rows.begin(), table.rows.end(),
                   [](const Row& row) { return row[1].text == kCut; })) {
     notes.emplace_back(kCutNote);
@@ -297,6 +369,18 @@ void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Grou
                   [](const Group& group) { return group.runs.size() > 1; })) {
     notes.emplace_back(
         "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
+  }
+  if (std::any_of(table.rows.begin(), table.rows.end(),
+                  [](const Row& row) { return row[1].text == kPlace; })) {
+    notes.emplace_back(
+        "ours below: share of our runs that lie below the paper's figure, of which it prints one "
+        "run; after as many views, entropy reduction and points/voxel at the end");
+  }
+  const bool is_one_setting = std::all_of(groups.begin(), groups.end(), [&](const Group& group) {
+    return group.setting == groups.front().setting;
+  });
+  if (const std::string order = is_one_setting ? order_note(paper, groups) : ""; !order.empty()) {
+    notes.push_back("the paper's order in single runs of ours, one of each method: " + order);
   }
   if (ceiling && !ceiling->is_given) {
     notes.push_back(fmt::format(
@@ -338,13 +422,17 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
                   [](const PaperRow& row) { return row.time_min.has_value(); });
   TextTable table{.title = std::string(paper.source),
                   .columns = columns_of(runs, {prints_time ? "" : "time_min"})};
-  const double most = ceiling ? ceiling->leaf_outside[0] : 0.0;
+  const double most = ceiling ? ceiling->leaf_counted[0] : 0.0;
   const std::vector<Group> groups = groups_of(paper, runs, settings);
   for (const PaperRow& row : paper.rows) {
     for (const Group& group : groups) {
       if (group.utility == row.utility) add_ours(group.name, group.runs, &row, most, table);
     }
     add_papers_row(std::string(row.label), row, table);
+    for (const Group& group : groups) {
+      if (group.utility != row.utility || group.runs.size() < 2) continue;
+      add_place(group.name, group.runs, row, table);
+    }
   }
   for (const Group& group : groups) {
     const bool is_papers = find_row(paper, group.utility) != nullptr;
@@ -353,8 +441,8 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
   add_profiles(groups, most, table);
   if (paper.profile) add_papers_row("Profile", *paper.profile, table);
   if (ceiling && !ceiling->is_given) {
-    add_row("Ceiling", "physical", {covered(ceiling->outside)}, table);
-    add_row("Ceiling", "leaf filter", {covered(ceiling->leaf_outside)}, table);
+    add_row("Ceiling", "physical", {covered(ceiling->counted)}, table);
+    add_row("Ceiling", "leaf filter", {covered(ceiling->leaf_counted)}, table);
   }
   add_notes(table, paper, groups, prints_time, ceiling);
   return table;
@@ -370,11 +458,11 @@ TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs
     table.columns.push_back({fmt::format("{:.0f}%", 100.0 * share),
                              fmt::format("metres_to_{:.0f}", 100.0 * share), ColumnKind::counted});
   }
-  if (runs.empty() || !ceiling || ceiling->leaf_outside[0] <= 0.0) return table;
+  if (runs.empty() || !ceiling || ceiling->leaf_counted[0] <= 0.0) return table;
   for (const Group& group : groups_of(paper, runs, settings)) {
     Row& row = table.rows.emplace_back(Row{{group.name}, {"ours"}});
     for (const double share : shares) {
-      row.push_back(metres_cell(group.runs, share * ceiling->leaf_outside[0]));
+      row.push_back(metres_cell(group.runs, share * ceiling->leaf_counted[0]));
     }
   }
   table.notes = {
@@ -397,6 +485,9 @@ std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std:
     if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
   } else if (row != nullptr) {
     table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
+  }
+  if (run.area_samples > 0) {
+    table.notes.push_back("coverage: ours of voxels " + reference_words(run.area_samples));
   }
   table.notes.push_back(runs_note(run.utility, {&run}));
   return terminal_text(table, width);

@@ -21,7 +21,7 @@ struct MetricContext {
   std::array<double, 3> budgets = {};  // of views, metres, seconds: the longest run's; 0 for none
 
   /// Coverage at 0.05 m; 0 where it is not known.
-  double most() const { return ceiling ? ceiling->leaf_outside[0] : 0.0; }
+  double most() const { return ceiling ? ceiling->leaf_counted[0] : 0.0; }
 };
 
 struct RunMetric {

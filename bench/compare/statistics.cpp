@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "sim/core/error.hpp"
 
@@ -93,6 +95,29 @@ std::optional<double> median_effort(std::span<const double> values) {
   const double upper = sorted[sorted.size() / 2];
   if (std::isinf(upper)) return std::nullopt;
   return 0.5 * (sorted[(sorted.size() - 1) / 2] + upper);
+}
+
+double share_below(std::span<const double> values, double figure) {
+  double below = 0.0;
+  for (const double value : values) below += value < figure ? 1.0 : value == figure ? 0.5 : 0.0;
+  return below / static_cast<double>(values.size());
+}
+
+double share_descending(std::span<const std::vector<double>> groups) {
+  // of the draws so far, by their last value, the share that is in order
+  std::vector<std::pair<double, double>> last = {{std::numeric_limits<double>::infinity(), 1.0}};
+  for (const std::vector<double>& group : groups) {
+    std::vector<std::pair<double, double>> next;
+    for (const double value : group) {
+      double share = 0.0;
+      for (const auto& [above, so_far] : last) share += above > value ? so_far : 0.0;
+      next.emplace_back(value, share / static_cast<double>(group.size()));
+    }
+    last = std::move(next);
+  }
+  double share = 0.0;
+  for (const auto& [value, so_far] : last) share += so_far;
+  return share;
 }
 
 std::vector<double> ranks_of(std::span<const double> values) {

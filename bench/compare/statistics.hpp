@@ -40,6 +40,13 @@ double least_wilcoxon_p(std::size_t n);
 /// fail. Requires a value.
 std::optional<double> median_effort(std::span<const double> values);
 
+/// Share of the values below that one; those equal to it count half. Requires a value.
+double share_below(std::span<const double> values, double figure);
+
+/// Of all ways to draw one value of each group, the share in which each is above the next one's:
+/// how often single draws come in this order. Requires groups with values.
+double share_descending(std::span<const std::vector<double>> groups);
+
 /// Holm's step-down adjustment (Holm 1979): p values of one family, in their order.
 std::vector<double> holm_adjusted(std::span<const double> p);
 

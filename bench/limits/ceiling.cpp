@@ -20,12 +20,11 @@ constexpr std::string_view kKind = "ceiling";
 Ceiling compute(const Scenario& scenario, const World& world, const RayScene& scene,
                 const LegalViewpoints& legal, int threads,
                 const std::function<void(double)>& on_progress) {
-  const ReferenceConfig config{.floor_z_m = scenario.planner.floor_z_m,
-                               .region_m = scenario.score.region_m};
-  const SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
+  const SurfaceReference reference =
+      cached_surface_reference(world, scene, reference_config(scenario), threads);
   const SeenSurface seen =
       find_seen_surface(scenario, world, scene, legal, reference, threads, on_progress);
-  Ceiling ceiling{.positions = legal.size()};
+  Ceiling ceiling{.area_samples = reference.area_samples, .positions = legal.size()};
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     const VoxelSet seen_of_size = coarser(seen.voxels, kCoverageFactors[size]);
     const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[size]);
@@ -33,18 +32,19 @@ Ceiling compute(const Scenario& scenario, const World& world, const RayScene& sc
     std::set_intersection(kept.begin(), kept.end(), seen_of_size.begin(), seen_of_size.end(),
                           std::back_inserter(kept_and_seen));
     ceiling.raw[size] = coverage(reference.raw[size], seen_of_size);
-    ceiling.outside[size] = coverage(reference.outside[size], seen_of_size);
+    ceiling.counted[size] = coverage(reference.counted[size], seen_of_size);
     ceiling.leaf_raw[size] = coverage(reference.raw[size], kept_and_seen);
-    ceiling.leaf_outside[size] = coverage(reference.outside[size], kept_and_seen);
+    ceiling.leaf_counted[size] = coverage(reference.counted[size], kept_and_seen);
   }
   return ceiling;
 }
 
 std::string bytes_of(const Ceiling& ceiling) {
   std::string bytes;
+  put_count(bytes, ceiling.area_samples);
   put_count(bytes, ceiling.positions);
   for (const auto* shares :
-       {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
+       {&ceiling.raw, &ceiling.counted, &ceiling.leaf_raw, &ceiling.leaf_counted}) {
     append_bytes(bytes, *shares);
   }
   return bytes;
@@ -52,8 +52,10 @@ std::string bytes_of(const Ceiling& ceiling) {
 
 std::optional<Ceiling> ceiling_in(std::string_view bytes) {
   PackedNumbers in(bytes);
-  Ceiling ceiling{.positions = in.take_count()};
-  for (auto* shares : {&ceiling.raw, &ceiling.outside, &ceiling.leaf_raw, &ceiling.leaf_outside}) {
+  Ceiling ceiling;
+  ceiling.area_samples = in.take_count();
+  ceiling.positions = in.take_count();
+  for (auto* shares : {&ceiling.raw, &ceiling.counted, &ceiling.leaf_raw, &ceiling.leaf_counted}) {
     *shares = in.take<std::array<double, 3>>();
   }
   if (!in.is_read()) return std::nullopt;
@@ -62,15 +64,20 @@ std::optional<Ceiling> ceiling_in(std::string_view bytes) {
 
 /// The rows of the report: a name for readers, one for programs, and the shares.
 struct Row {
-  const char* text;
-  const char* key;
+  std::string text;
+  std::string key;
   std::array<double, 3> share;
 };
 
 std::array<Row, 4> rows_of(const Ceiling& ceiling) {
-  return {{{"seen, of the surface visible from outside", "outside", ceiling.outside},
+  const bool is_outside = ceiling.area_samples == 0;
+  const std::string name = reference_name(ceiling.area_samples);
+  return {{{is_outside ? "seen, of the surface visible from outside" : "seen, of the area samples",
+            name, ceiling.counted},
            {"seen, of all surface", "raw", ceiling.raw},
-           {"kept by the cloud, visible from outside", "leaf_outside", ceiling.leaf_outside},
+           {is_outside ? "kept by the cloud, visible from outside"
+                       : "kept by the cloud, of the area samples",
+            "leaf_" + name, ceiling.leaf_counted},
            {"kept by the cloud, of all surface", "leaf_raw", ceiling.leaf_raw}}};
 }
 
@@ -116,6 +123,14 @@ std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& worl
   return stored ? ceiling_in(*stored) : std::nullopt;
 }
 
+ReferenceConfig reference_config(const Scenario& scenario) {
+  const ScoreConfig& score = scenario.score;
+  const bool by_samples = score.reference == ScoreReference::area_samples;
+  return {.floor_z_m = scenario.planner.floor_z_m,
+          .area_samples = by_samples ? static_cast<std::size_t>(score.area_samples) : 0,
+          .region_m = score.region_m};
+}
+
 Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   Scenario out;
   out.seed = scenario.seed;  // moves the start
@@ -124,7 +139,10 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   out.terrain = scenario.terrain;
   out.obstacles = scenario.obstacles;
   out.no_fly = scenario.no_fly;
-  out.score.region_m = scenario.score.region_m;
+  out.score = scenario.score;
+  out.score.sizes_m = ScoreConfig{}.sizes_m;
+  if (out.score.reference == ScoreReference::outside)
+    out.score.area_samples = ScoreConfig{}.area_samples;
   out.start = scenario.start;
   out.lidars = scenario.lidars;
   for (LidarConfig& lidar : out.lidars) {
@@ -205,6 +223,9 @@ std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> re
       "of exact sensors, the profile's LIDAR among them: noise can lift a mission above it\n"
       "a voxel counts with surface of a tenth of its face\n",
       ceiling.positions, wall_s);
+  if (ceiling.area_samples > 0) {
+    text += fmt::format("area samples: voxels {}\n", reference_words(ceiling.area_samples));
+  }
   return reaches.empty() ? text : text + oracle_text(reaches);
 }
 

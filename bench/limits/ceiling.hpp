@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bench/limits/legal_viewpoints.hpp"
+#include "bench/score/surface_reference.hpp"
 #include "scenarios/scenario.hpp"
 #include "sim/mesh/world.hpp"
 
@@ -17,15 +18,19 @@ namespace gnbv {
 
 struct OracleReach;
 
+/// What of the structure the scenario scores, and what coverage counts.
+ReferenceConfig reference_config(const Scenario& scenario);
+
 /// Shares of the reference voxels, by kCoverageSizes_m. No leaf share is above its like of what is
 /// seen.
 struct Ceiling {
   std::array<double, 3> raw{};           // of all surface: what is seen (seen_surface.hpp)
-  std::array<double, 3> outside{};       // of the surface seen from outside
+  std::array<double, 3> counted{};       // of what coverage counts
   std::array<double, 3> leaf_raw{};      // what of it a cloud can hold after its leaf filter
-  std::array<double, 3> leaf_outside{};  // "share of the ceiling" divides by this
+  std::array<double, 3> leaf_counted{};  // "share of the ceiling" divides by this
+  std::size_t area_samples = 0;          // of the reference
   std::size_t positions = 0;             // legal lattice positions that are reachable
-  bool is_given = false;                 // leaf_outside[0] alone is known: somebody's yardstick
+  bool is_given = false;                 // leaf_counted[0] alone is known: somebody's yardstick
 };
 
 /// Cached by the content of everything it depends on (content_cache.hpp). Deterministic at any
@@ -41,9 +46,9 @@ std::optional<Ceiling> known_ceiling(const Scenario& scenario, const World& worl
                                      const RayScene& scene, const ViewPose& start, int threads);
 
 /// A scenario with all that ceiling and survey depend on - structure, surroundings and ground,
-/// region, no_fly boxes, cameras and LIDARs (without their noise), profile and the start it is
-/// flown from, workspace and voxels, floor, leaf, collision radius, navigation box - and the
-/// defaults elsewhere: scenarios of which this is the same have one ceiling.
+/// reference and region, no_fly boxes, cameras and LIDARs (without their noise), profile and the
+/// start it is flown from, workspace and voxels, floor, leaf, collision radius, navigation box -
+/// and the defaults elsewhere: scenarios of which this is the same have one ceiling.
 Scenario what_a_ceiling_depends_on(const Scenario& scenario);
 
 /// SHA-256 over the same, with the meshes in the place of their names, and the legal positions with

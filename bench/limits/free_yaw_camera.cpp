@@ -9,7 +9,7 @@ FreeYawCamera::FreeYawCamera(const CameraModel& camera)
     : tan_x_(std::tan(0.5 * camera.config.fov_x_rad)),
       tan_y_(std::tan(0.5 * camera.config.fov_y_rad)),
       range_min_m_(camera.config.range_min_m),
-      range_max_m_(camera.config.range_max_m),
+      range_max_m_(return_end_m(camera.config)),
       reach_m_(range_max_m_ * std::sqrt(1.0 + tan_x_ * tan_x_ + tan_y_ * tan_y_) +
                camera.config.p_body_m.norm()) {
   const Vec3& p_body_m = camera.config.p_body_m;

@@ -35,7 +35,7 @@ class Oracle {
       : scenario_(scenario),
         scene_(scene),
         legal_(legal),
-        voxels_(reference.outside[0]),
+        voxels_(reference.counted[0]),
         survey_(survey),
         start_(start),
         threads_(threads),
@@ -81,7 +81,7 @@ class Oracle {
     constexpr double kTooMuchShare = 3e-4;
     constexpr double kUsualLoss = 0.99;  // of the cloud of all views beyond that of a tour
     constexpr double kYield = 0.65;      // of a voxel more that is found, to the share held so far
-    const double wanted = share * survey_.leaf_outside[0] * static_cast<double>(voxels_.size());
+    const double wanted = share * survey_.leaf_counted[0] * static_cast<double>(voxels_.size());
     const std::size_t all = found_by_all();
     CoverAim target = cover_aim(aim, part_of(all, kUsualLoss * share));
     const CoveringTour first = greedy(target);

@@ -14,7 +14,7 @@ namespace gnbv {
 
 enum class OracleAim { views, metres };
 
-/// Which share of the leaf ceiling's finest outside voxels the views are to find.
+/// Which share of the leaf ceiling's finest voxels the views are to find.
 constexpr double kOracleShare = 0.99;
 
 /// What a view costs beside its metres, for the aim metres, and what it does to the greedy choice

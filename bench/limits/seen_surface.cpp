@@ -145,7 +145,7 @@ class SlabSearch {
         reference_(reference),
         points_of_outside_(std::max(
             kLeastPointsOfOutside,
-            kPointsOfAllOutside / std::max<std::size_t>(1, reference.outside[0].size()))) {}
+            kPointsOfAllOutside / std::max<std::size_t>(1, reference.counted[0].size()))) {}
 
   SeenSurface search(std::span<const Sample> samples) const {
     SeenSurface out;
@@ -194,7 +194,7 @@ class SlabSearch {
     }
     cameras_.look_from_lattice(near_m, SightSearch::Positions::first_few, items);
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const bool is_outside = has(reference_.outside[0], of[i]->code);
+      const bool is_outside = has(reference_.counted[0], of[i]->code);
       // buried surface is asked once, by the better kind of its points
       const bool is_worth = is_outside || (has(reference_.raw[0], of[i]->code) &&
                                            (kind == 0 || of[i]->points_m[0].empty()));
@@ -209,7 +209,7 @@ class SlabSearch {
     std::vector<Voxel*> of;
     std::vector<std::vector<Vec3f>> points_m;
     for (Voxel& voxel : voxels) {
-      if (voxel.is_seen || !has(reference_.outside[0], voxel.code)) continue;
+      if (voxel.is_seen || !has(reference_.counted[0], voxel.code)) continue;
       of.push_back(&voxel);
       auto& both_m = points_m.emplace_back(voxel.points_m[0]);
       both_m.insert(both_m.end(), voxel.points_m[1].begin(), voxel.points_m[1].end());

@@ -34,7 +34,7 @@ std::vector<CameraModel> coarse(std::span<const CameraModel> cameras) {
 std::int32_t stride_of(const LegalViewpoints& legal, std::span<const CameraModel> cameras) {
   double reach_m = std::numeric_limits<double>::infinity();
   for (const CameraModel& camera : cameras) {
-    reach_m = std::min(reach_m, camera.config.range_max_m);
+    reach_m = std::min(reach_m, return_end_m(camera.config));
   }
   return 2.0 * legal.step_m > 0.5 * reach_m ? 1 : 2;
 }
@@ -94,7 +94,7 @@ ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
   const double floor_z_m = scenario.planner.floor_z_m;
   ViewSurvey survey;
   survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, threads, stop);
-  CloudOfViews cloud(scenario, reference.outside[0]);
+  CloudOfViews cloud(scenario, reference.counted[0]);
   std::vector<std::vector<FrameRays>> rays(kViewsAtOnce);
   for (std::size_t begin = 0; begin < survey.views.size(); begin += kViewsAtOnce) {
     const std::size_t count = std::min(kViewsAtOnce, survey.views.size() - begin);
@@ -102,19 +102,19 @@ ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
     parallel_for(threads, count, [&](std::size_t i) {
       SurveyedView& view = survey.views[begin + i];
       take_view(scene, cameras, pose_of(legal, view), floor_z_m, 1, rays[i]);
-      view.finds = finds_alone(reference.outside[0], rays[i], scenario.planner.cloud.leaf_m);
+      view.finds = finds_alone(reference.counted[0], rays[i], scenario.planner.cloud.leaf_m);
     });
     for (std::size_t i = 0; i < count; ++i) cloud.add(rays[i]);
   }
   survey.leaf_raw = coverage_at_all_sizes(reference.raw, cloud.points_world_m());
-  survey.leaf_outside = coverage_at_all_sizes(reference.outside, cloud.points_world_m());
+  survey.leaf_counted = coverage_at_all_sizes(reference.counted, cloud.points_world_m());
   return survey;
 }
 
 std::string bytes_of(const ViewSurvey& survey) {
   std::string bytes;
   append_bytes(bytes, survey.leaf_raw);
-  append_bytes(bytes, survey.leaf_outside);
+  append_bytes(bytes, survey.leaf_counted);
   put_count(bytes, survey.views.size());
   for (const SurveyedView& view : survey.views) {
     append_bytes(bytes, view.position);
@@ -129,7 +129,7 @@ std::optional<ViewSurvey> survey_in(std::string_view bytes) {
   PackedNumbers in(bytes);
   ViewSurvey survey;
   survey.leaf_raw = in.take<std::array<double, 3>>();
-  survey.leaf_outside = in.take<std::array<double, 3>>();
+  survey.leaf_counted = in.take<std::array<double, 3>>();
   for (std::uint64_t views = in.take_count(); views > 0 && in.is_good(); --views) {
     SurveyedView& view = survey.views.emplace_back();
     view.position = in.take<std::uint32_t>();

@@ -18,7 +18,7 @@ struct SurveyedView {
   std::uint32_t position = 0;             // of the legal viewpoints
   double yaw_rad = 0.0;                   // a multiple of 45 degrees, in (-pi, pi]
   double gimbal_pitch_rad = 0.0;          // one of the gimbal's
-  std::vector<std::uint32_t> finds = {};  // finds_alone() of the finest outside voxels
+  std::vector<std::uint32_t> finds = {};  // finds_alone() of the finest voxels that are counted
 };
 
 ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view);
@@ -26,7 +26,7 @@ ViewPose pose_of(const LegalViewpoints& legal, const SurveyedView& view);
 struct ViewSurvey {
   std::vector<SurveyedView> views;
   std::array<double, 3> leaf_raw{};  // coverage of the cloud of all views, by kCoverageSizes_m
-  std::array<double, 3> leaf_outside{};
+  std::array<double, 3> leaf_counted{};
 };
 
 /// Every second legal position along each axis (every one where two steps are more than half the

@@ -63,7 +63,7 @@ DepthFrame analytic_depth(const AnalyticScene& scene, const CameraModel& camera,
       // z of the direction is 1 in the camera, so the distance along it is the depth
       const Vec3 direction = frame.T_world_camera.linear() * camera.ray_camera(u, v).cast<double>();
       const double depth_m = first_hit(scene, frame.T_world_camera.translation(), direction);
-      frame.depth_m.push_back(measured(depth_m, config.range_min_m, config.range_max_m));
+      frame.depth_m.push_back(measured(depth_m, config.range_min_m, return_end_m(config)));
     }
   }
   return frame;

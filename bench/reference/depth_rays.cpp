@@ -4,7 +4,8 @@
 
 namespace gnbv {
 
-std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m) {
+std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
+                             NoReturn no_return) {
   const int width_px = camera.config.width_px;
   const int height_px = camera.config.height_px;
   GNBV_CHECK(frame.depth_m.size() ==
@@ -28,6 +29,7 @@ std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera,
       const float d_m = *depth_m++;
       if (!(d_m >= range_min_m)) continue;
       const bool has_return = d_m <= range_max_m;
+      if (!has_return && no_return == NoReturn::unknown) continue;
       const double along_m = has_return ? static_cast<double>(d_m) : camera.config.range_max_m;
       const Vec3 end_m = origin_m + along_m * (column + down);
       rays.push_back({end_m.cast<float>(), has_return && end_m.z() >= floor_z_m});

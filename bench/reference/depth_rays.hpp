@@ -11,7 +11,9 @@ namespace gnbv {
 
 /// Rays of a depth frame in row-major pixel order, by the rules of PixelRay: kInvalidRange, or
 /// nearer than range_min_m, gives no ray; kNoReturn, or beyond range_max_m, a clearing ray to the
-/// plane at range_max_m; a return below `floor_z_m` clears but marks nothing.
-std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m);
+/// plane at range_max_m, or none with NoReturn::unknown; a return below `floor_z_m` clears but
+/// marks nothing.
+std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
+                             NoReturn no_return = NoReturn::free);
 
 }  // namespace gnbv

@@ -4,6 +4,7 @@
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
+#include <pcl/segmentation/extract_clusters.h>
 
 #include <cmath>
 #include <limits>
@@ -54,6 +55,20 @@ PclCloud PclCloud::filtered(double leaf_m) const {
 
 std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_m) {
   return PclCloud(points_m).filtered(leaf_m).points_m();
+}
+
+std::vector<std::vector<int>> pcl_clusters(std::span<const Vec3f> points_m, double tolerance_m,
+                                           int min_points, int max_points) {
+  pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
+  extraction.setClusterTolerance(tolerance_m);
+  extraction.setMinClusterSize(min_points);
+  extraction.setMaxClusterSize(max_points);
+  extraction.setInputCloud(pcl_cloud(points_m));
+  std::vector<pcl::PointIndices> found;
+  extraction.extract(found);
+  std::vector<std::vector<int>> clusters;
+  for (pcl::PointIndices& one : found) clusters.push_back(std::move(one.indices));
+  return clusters;
 }
 
 struct PclNeighbours::State {

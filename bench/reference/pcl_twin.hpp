@@ -32,6 +32,11 @@ class PclCloud {
 /// The same from our points to ours.
 std::vector<Vec3f> pcl_leaf_filter(std::span<const Vec3f> points_m, double leaf_m);
 
+/// The clusters of points (indices into them) that pcl::EuclideanClusterExtraction finds, none too
+/// small or too large.
+std::vector<std::vector<int>> pcl_clusters(std::span<const Vec3f> points_m, double tolerance_m,
+                                           int min_points, int max_points);
+
 /// For each point, how many of the points lie within `radius_m` of it, itself included
 /// (pcl::KdTreeFLANN, built anew). FLANN asks for less than the squared radius: a pair at exactly
 /// that float32 distance, which SurfaceCloud counts, is counted here as well.

@@ -26,24 +26,27 @@ std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& referen
   std::vector<CoverageShares> shares(prefixes.size());
   parallel_for(threads, kCoverageSizes_m.size(), [&](std::size_t size) {
     const VoxelSet& raw = reference.raw[size];
-    const VoxelSet& outside = reference.outside[size];
-    GNBV_CHECK(std::includes(raw.begin(), raw.end(), outside.begin(), outside.end()),
-               "a voxel is outside and not in raw");
-    std::unordered_map<std::uint64_t, bool> unmet;  // by no point yet; whether it is outside
+    const VoxelSet& counted = reference.counted[size];
+    struct Kinds {
+      bool is_raw = false, is_counted = false;
+    };
+    std::unordered_map<std::uint64_t, Kinds> unmet;  // by no point yet
     unmet.reserve(raw.size());
-    for (const std::uint64_t code : raw) unmet.emplace(code, false);
-    for (const std::uint64_t code : outside) unmet[code] = true;
-    std::size_t met_outside = 0;
+    for (const std::uint64_t code : raw) unmet[code].is_raw = true;
+    for (const std::uint64_t code : counted) unmet[code].is_counted = true;
+    std::size_t met_raw = 0;
+    std::size_t met_counted = 0;
     std::size_t point = 0;
     for (std::size_t i = 0; i < prefixes.size(); ++i) {
       for (; point < prefixes[i]; ++point) {
         const auto found = unmet.find(voxel_code(cloud_world_m[point], kCoverageSizes_m[size]));
         if (found == unmet.end()) continue;
-        met_outside += found->second ? 1 : 0;
+        met_raw += found->second.is_raw ? 1 : 0;
+        met_counted += found->second.is_counted ? 1 : 0;
         unmet.erase(found);
       }
-      shares[i].raw[size] = share_of(raw.size() - unmet.size(), raw.size());
-      shares[i].outside[size] = share_of(met_outside, outside.size());
+      shares[i].raw[size] = share_of(met_raw, raw.size());
+      shares[i].counted[size] = share_of(met_counted, counted.size());
     }
   });
   return shares;

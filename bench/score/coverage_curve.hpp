@@ -14,13 +14,12 @@ namespace gnbv {
 /// Coverage as fractions, by kCoverageSizes_m.
 struct CoverageShares {
   std::array<double, 3> raw{};
-  std::array<double, 3> outside{};
+  std::array<double, 3> counted{};
 };
 
 /// What the first prefixes[i] points of the cloud cover, for each i: the same as coverage() of
 /// their voxels, but every point is looked at once a size. Requires that prefixes never shrink and
-/// end within the cloud, and that `outside` is part of `raw`. Throws BrokenInvariant for a point
-/// that has no voxel.
+/// end within the cloud. Throws BrokenInvariant for a point that has no voxel.
 std::vector<CoverageShares> coverage_of_prefixes(const SurfaceReference& reference,
                                                  std::span<const Vec3f> cloud_world_m,
                                                  std::span<const std::size_t> prefixes,

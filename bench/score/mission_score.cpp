@@ -42,7 +42,7 @@ std::vector<std::size_t> prefixes_of(const ScoredCloud& cloud, const OwnCloud& o
 }  // namespace
 
 std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
-                                            const RayScene& scene, double floor_z_m,
+                                            const RayScene& scene, const ReferenceConfig& reference,
                                             const ScoredCloud& cloud, int threads) {
   std::vector<SizedCoverage> all;
   if (std::all_of(sizes_m.begin(), sizes_m.end(),
@@ -53,15 +53,14 @@ std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, con
   for (const double size_m : sizes_m) {
     if (papers_size(size_m)) continue;
     SizedShares shares =
-        sized_shares(world, size_m, {.floor_z_m = floor_z_m, .region_m = cloud.region_m},
-                     own.points_world_m, prefixes, threads);
+        sized_shares(world, size_m, reference, own.points_world_m, prefixes, threads);
     SizedCoverage at{.size_m = size_m,
-                     .profile = shares.outside.front(),
-                     .final = shares.outside.back(),
+                     .profile = shares.counted.front(),
+                     .final = shares.counted.back(),
                      .profile_raw = shares.raw.front(),
                      .final_raw = shares.raw.back()};
-    shares.outside.pop_back();
-    at.curve = std::move(shares.outside);
+    shares.counted.pop_back();
+    at.curve = std::move(shares.counted);
     all.push_back(std::move(at));
   }
   std::sort(all.begin(), all.end(),
@@ -76,16 +75,17 @@ MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scen
   const std::vector<CoverageShares> shares =
       coverage_of_prefixes(reference, own.points_world_m, prefixes, threads);
 
-  MissionScore score{.profile = shares.front().outside,
-                     .final = shares.back().outside,
+  MissionScore score{.profile = shares.front().counted,
+                     .final = shares.back().counted,
                      .profile_raw = shares.front().raw,
                      .final_raw = shares.back().raw,
+                     .area_samples = reference.area_samples,
                      .before = cloud.before};
-  score.curve.coverage.push_back(shares.front().outside);
+  score.curve.coverage.push_back(shares.front().counted);
   score.curve.metres.push_back(0.0);
   score.curve.seconds.push_back(0.0);
   for (std::size_t i = 0; i < cloud.views.size(); ++i) {
-    score.curve.coverage.push_back(shares[i + 1].outside);
+    score.curve.coverage.push_back(shares[i + 1].counted);
     score.curve.metres.push_back(cloud.views[i].straight_m);
     score.curve.seconds.push_back(cloud.views[i].time_s - cloud.before.profile_end_s);
   }

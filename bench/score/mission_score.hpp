@@ -32,23 +32,24 @@ struct ScoredCloud {
 
 /// Coverage as fractions, by kCoverageSizes_m.
 struct MissionScore {
-  std::array<double, 3> profile{};  // outside-visible reference
+  std::array<double, 3> profile{};  // of what coverage counts
   std::array<double, 3> final{};
   std::array<double, 3> profile_raw{};  // raw reference
   std::array<double, 3> final_raw{};
+  std::size_t area_samples = 0;          // of the reference
   std::vector<SizedCoverage> more = {};  // at sizes beside those, ascending
   CloudDistances distances = {};
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
   BeforeViews before = {};
-  // ceiling of the coverage at 0.05 m (leaf_outside of bench/limits/ceiling.hpp), for those who
+  // ceiling of the coverage at 0.05 m (leaf_counted of bench/limits/ceiling.hpp), for those who
   // know
   std::optional<double> ceiling = {};
 };
 
-/// At the sizes that are not the paper's, ascending; of the cloud's region (sized_coverage.hpp).
+/// At the sizes that are not the paper's, ascending (sized_coverage.hpp).
 std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
-                                            const RayScene& scene, double floor_z_m,
+                                            const RayScene& scene, const ReferenceConfig& reference,
                                             const ScoredCloud& cloud, int threads);
 
 /// Points that belong to what stands around the structure (points_of_structure()) count nowhere.

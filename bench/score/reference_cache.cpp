@@ -22,14 +22,16 @@ std::string key_of(const World& world, const ReferenceConfig& config) {
   }
   sha.add(config.directions);
   sha.add(std::uint64_t{config.fewest_samples});
+  sha.add(std::uint64_t{config.area_samples});
   return sha.hex();
 }
 
 std::string bytes_of(const SurfaceReference& reference) {
   std::string bytes;
-  for (const auto* const sizes : {&reference.raw, &reference.outside}) {
+  for (const auto* const sizes : {&reference.raw, &reference.counted}) {
     for (const VoxelSet& voxels : *sizes) put_ascending(bytes, voxels);
   }
+  put_count(bytes, reference.area_samples);
   put_count(bytes, reference.samples_world_m.size());
   for (const auto* const points : {&reference.points_world_m, &reference.samples_world_m}) {
     for (const Vec3f& p_m : *points) {
@@ -50,11 +52,12 @@ std::vector<Vec3f> take_points(PackedNumbers& in, std::uint64_t count) {
 std::optional<SurfaceReference> reference_in(std::string_view bytes) {
   PackedNumbers in(bytes);
   SurfaceReference reference;
-  for (auto* const sizes : {&reference.raw, &reference.outside}) {
+  for (auto* const sizes : {&reference.raw, &reference.counted}) {
     for (VoxelSet& voxels : *sizes) voxels = in.take_ascending<std::uint64_t>();
   }
+  reference.area_samples = in.take_count();
   const std::uint64_t samples = in.take_count();
-  reference.points_world_m = take_points(in, reference.outside[0].size());
+  reference.points_world_m = take_points(in, reference.counted[0].size());
   reference.samples_world_m = take_points(in, samples);
   if (!in.is_read()) return std::nullopt;
   return reference;

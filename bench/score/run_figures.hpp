@@ -17,7 +17,7 @@ namespace gnbv {
 /// the first n views left. Metres are planned straight legs from the first view on, seconds are
 /// simulated, from the end of the profile on.
 struct CoverageCurve {
-  std::vector<std::array<double, 3>> coverage;  // outside-visible reference, by kCoverageSizes_m
+  std::vector<std::array<double, 3>> coverage;  // of what it counts, by kCoverageSizes_m
   std::vector<double> metres;
   std::vector<double> seconds;
 
@@ -86,7 +86,8 @@ struct RunFigures {
   BeforeViews before;
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
-  std::array<double, 3> coverage_final{};      // of the surface seen from outside
+  std::size_t area_samples = 0;                // of the reference: what coverage counts
+  std::array<double, 3> coverage_final{};      // of that
   std::array<double, 3> coverage_profile{};    // the same, after the profile
   std::array<double, 3> coverage_final_raw{};  // of all surface
   std::array<double, 3> coverage_profile_raw{};

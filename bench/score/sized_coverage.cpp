@@ -66,7 +66,7 @@ SizedShares sized_shares(const World& world, double size_m, const ReferenceConfi
   for (const CoverageShares& shares :
        coverage_of_prefixes(reference, scaled(cloud_world_m, factor), prefixes, threads)) {
     out.raw.push_back(shares.raw[0]);
-    out.outside.push_back(shares.outside[0]);
+    out.counted.push_back(shares.counted[0]);
   }
   return out;
 }

@@ -14,11 +14,11 @@ namespace gnbv {
 /// Coverage at one size, as fractions.
 struct SizedCoverage {
   double size_m = 0.0;
-  double profile = 0.0;  // of the surface seen from outside
+  double profile = 0.0;  // of what coverage counts
   double final = 0.0;
   double profile_raw = 0.0;  // of all surface
   double final_raw = 0.0;
-  std::vector<double> curve = {};  // outside, by the entries of CoverageCurve
+  std::vector<double> curve = {};  // of what it counts, by the entries of CoverageCurve
 };
 
 /// "0.05", "0.10", "0.025": two decimals at least, and as many as the size has.
@@ -41,7 +41,7 @@ void need_room_for(std::span<const double> sizes_m, const TriangleMesh& structur
 /// is cached.
 struct SizedShares {
   std::vector<double> raw;
-  std::vector<double> outside;
+  std::vector<double> counted;
 };
 SizedShares sized_shares(const World& world, double size_m, const ReferenceConfig& config,
                          std::span<const Vec3f> cloud_world_m,

@@ -122,6 +122,20 @@ Polygon above_floor(const TriangleMesh& mesh, std::uint32_t face, double floor_z
   return is_above ? polygon : polygon.cut(2, floor_z_m, 1.0);
 }
 
+/// The point of a convex polygon at u and v in [0, 1), of which equal areas make equal areas.
+Vec3 point_at(std::span<const Vec3> p, double area_m2, double u, double v) {
+  std::size_t apex = 2;  // of the fan's triangle that holds the u-th part of the area
+  double left_m2 = u * area_m2;
+  for (; apex + 1 < p.size(); ++apex) {
+    const double part_m2 = 0.5 * (p[apex - 1] - p[0]).cross(p[apex] - p[0]).norm();
+    if (left_m2 < part_m2) break;
+    left_m2 -= part_m2;
+  }
+  const double part_m2 = 0.5 * (p[apex - 1] - p[0]).cross(p[apex] - p[0]).norm();
+  const double out = std::sqrt(part_m2 > 0.0 ? std::clamp(left_m2 / part_m2, 0.0, 1.0) : 0.5);
+  return p[0] + out * ((1.0 - v) * (p[apex - 1] - p[0]) + v * (p[apex] - p[0]));
+}
+
 /// The float nearest to p that lies in [cell, cell + 1) voxels.
 float into_cell(double p_m, std::int64_t cell) {
   auto p = static_cast<float>(p_m);
@@ -196,23 +210,30 @@ Vec3f point_on(const SurfacePiece& piece, std::size_t k) {
     const double x = static_cast<double>(bits) / 4294967296.0 + static_cast<double>(k) * step;
     return x - std::floor(x);
   };
-  double u = shifted(kStep1, hash >> 32);
-  const double v = shifted(kStep2, hash & 0xffffffffULL);
-  const std::span<const Vec3> p = piece.corners_world_m;
-  std::size_t apex = 2;  // of the fan's triangle that holds the u-th part of the area
-  double left_m2 = u * piece.area_m2;
-  for (; apex + 1 < p.size(); ++apex) {
-    const double part_m2 = 0.5 * (p[apex - 1] - p[0]).cross(p[apex] - p[0]).norm();
-    if (left_m2 < part_m2) break;
-    left_m2 -= part_m2;
-  }
-  const double part_m2 = 0.5 * (p[apex - 1] - p[0]).cross(p[apex] - p[0]).norm();
-  u = part_m2 > 0.0 ? std::clamp(left_m2 / part_m2, 0.0, 1.0) : 0.5;
-  const double out = std::sqrt(u);
-  const Vec3 point_m = p[0] + out * ((1.0 - v) * (p[apex - 1] - p[0]) + v * (p[apex] - p[0]));
+  const Vec3 point_m = point_at(piece.corners_world_m, piece.area_m2, shifted(kStep1, hash >> 32),
+                                shifted(kStep2, hash & 0xffffffffULL));
   const std::array<std::int64_t, 3> cell = index_of(piece.voxel);
   return {into_cell(point_m.x(), cell[0]), into_cell(point_m.y(), cell[1]),
           into_cell(point_m.z(), cell[2])};
+}
+
+std::vector<Vec3f> drawn_by_area(const TriangleMesh& mesh, double floor_z_m, std::size_t count) {
+  std::vector<double> until_m2;  // of the faces up to each one
+  double all_m2 = 0.0;
+  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+    until_m2.push_back(all_m2 += above_floor(mesh, face, floor_z_m).area_m2());
+  }
+  std::vector<Vec3f> points_m;
+  for (std::uint64_t i = 0; all_m2 > 0.0 && i < count; ++i) {
+    const auto draw = [&](std::uint64_t which) {
+      return uniform01({0, Stream::area_sample, which, i});
+    };
+    const double at_m2 = std::min(draw(0) * all_m2, std::nextafter(all_m2, 0.0));
+    const auto face = std::ranges::upper_bound(until_m2, at_m2) - until_m2.begin();
+    const Polygon part = above_floor(mesh, static_cast<std::uint32_t>(face), floor_z_m);
+    points_m.push_back(point_at(part.corners(), part.area_m2(), draw(1), draw(2)).cast<float>());
+  }
+  return points_m;
 }
 
 }  // namespace gnbv

@@ -51,4 +51,9 @@ std::size_t points_on(const SurfacePiece& piece, double spacing_m);
 /// of voxel and face, so that like pieces have unlike points), in the piece's voxel.
 Vec3f point_on(const SurfacePiece& piece, std::size_t k);
 
+/// So many points drawn by area, each by itself, from all faces' parts that are not below the
+/// floor; none where these have no area. The draws are keyed by their numbers alone: a mesh has the
+/// same points for every mission, and those of a scaled mesh are the scaled ones.
+std::vector<Vec3f> drawn_by_area(const TriangleMesh& mesh, double floor_z_m, std::size_t count);
+
 }  // namespace gnbv

@@ -1,5 +1,7 @@
 #include "bench/score/surface_reference.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,7 @@
 #include "bench/score/escape_search.hpp"
 #include "bench/score/surface_pieces.hpp"
 #include "sim/core/parallel.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
@@ -115,15 +118,35 @@ double spacing_for(const TriangleMesh& mesh, const ReferenceConfig& config) {
                                     : config.sample_spacing_m;
 }
 
+/// Counts the voxels that hold one of the points.
+void count_samples(std::span<const Vec3f> points_world_m, SurfaceReference& reference) {
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    reference.counted[size] = voxels_of(points_world_m, kCoverageSizes_m[size]);
+  }
+  const VoxelSet& finest = reference.counted[0];
+  std::vector<float> from_centre_m2(finest.size(), std::numeric_limits<float>::infinity());
+  reference.points_world_m.assign(finest.size(), Vec3f::Zero());
+  for (const Vec3f& p_m : points_world_m) {
+    const std::uint64_t code = voxel_code(p_m, kCoverageSizes_m[0]);
+    const auto i =
+        static_cast<std::size_t>(std::ranges::lower_bound(finest, code) - finest.begin());
+    const Vec3f centre_m = voxel_centre_m(code, kCoverageSizes_m[0]).cast<float>();
+    const float away_m2 = (p_m - centre_m).squaredNorm();
+    if (away_m2 >= from_centre_m2[i]) continue;
+    from_centre_m2[i] = away_m2;
+    reference.points_world_m[i] = p_m;
+  }
+}
+
 /// Leaves the voxels that lie in the region.
 void restrict_to(const Box3& region_m, SurfaceReference& reference) {
   const auto is_outside = [&](const Vec3& p_m) { return !region_m.contains(p_m); };
-  const VoxelSet finest = reference.outside[0];
+  const VoxelSet finest = reference.counted[0];
   std::size_t i = 0;  // points_world_m are in the order of the finest voxels
   std::erase_if(reference.points_world_m, [&](const Vec3f&) {
     return is_outside(voxel_centre_m(finest[i++], kCoverageSizes_m[0]));
   });
-  for (auto* const sizes : {&reference.raw, &reference.outside}) {
+  for (auto* const sizes : {&reference.raw, &reference.counted}) {
     for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
       std::erase_if((*sizes)[size], [&](std::uint64_t code) {
         return is_outside(voxel_centre_m(code, kCoverageSizes_m[size]));
@@ -174,12 +197,13 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
   }
 
   SurfaceReference reference;
+  reference.area_samples = config.area_samples;
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     reference.raw[size] = rich_voxels(all, size, &VoxelSurface::area_m2);
-    reference.outside[size] = rich_voxels(all, size, &VoxelSurface::outside_m2);
+    reference.counted[size] = rich_voxels(all, size, &VoxelSurface::outside_m2);
   }
   auto voxel = all.begin();
-  for (const std::uint64_t code : reference.outside[0]) {
+  for (const std::uint64_t code : reference.counted[0]) {
     while (voxel->code != code) ++voxel;
     reference.points_world_m.push_back(voxel->point_world_m);
   }
@@ -189,8 +213,21 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
     });
   }
   reference.samples_world_m = of_equal_areas(parts, kAreaSamples);
+  if (config.area_samples > 0) {
+    count_samples(drawn_by_area(world.structure, config.floor_z_m, config.area_samples), reference);
+  }
   restrict_to(config.region_m, reference);
   return reference;
+}
+
+std::string reference_name(std::size_t area_samples) {
+  return area_samples == 0 ? "outside" : "area_samples";
+}
+
+std::string reference_words(std::size_t area_samples) {
+  if (area_samples == 0) return "with visible surface of a tenth of their face";
+  return fmt::format("that hold one of {} points drawn by area from all surface, also inner",
+                     grouped(area_samples));
 }
 
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,

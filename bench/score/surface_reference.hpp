@@ -1,9 +1,11 @@
-// What there is to find: the voxels of the true surface, raw and as seen from outside.
+// What there is to find: the voxels of the true surface, all of them and those that coverage
+// counts.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bench/score/surface_samples.hpp"
@@ -20,13 +22,16 @@ struct ReferenceConfig {
   int directions = 512;                 // tried over the sphere, per sample
   double escape_near_m = 1e-4;    // what lies nearer to the sample on such a line does not block it
   double obstacle_reach_m = 1.0;  // an obstacle farther away along the line does not, either
+  // Coverage counts the voxels that hold one of so many points (drawn_by_area()), as the authors'
+  // evaluate_coverage does (a sparse cloud of all the mesh); 0: those with surface that sees out.
+  std::size_t area_samples = 0;
   // Counted are voxels whose centre lies in it, and samples that do themselves.
   Box3 region_m = Box3(Vec3::Constant(-1e4), Vec3::Constant(1e4));
 };
 
-/// A voxel of size s belongs to the reference if the surface in it has at least this share of s^2.
-/// Less is a sliver at an edge, which hardly a pixel hits and the cloud's leaves give away; how
-/// many of them there are would depend on how densely one looks.
+/// Without area samples, a voxel of size s belongs to the reference if the surface in it has at
+/// least this share of s^2. Less is a sliver at an edge, which hardly a pixel hits and the cloud's
+/// leaves give away; how many of them there are would depend on how densely one looks.
 constexpr double kLeastFaceShare = 0.1;
 
 /// A point sees out if straight lines leave the structure along its face's normal, on either side,
@@ -44,9 +49,10 @@ constexpr std::size_t kAreaSamples = 100000;
 /// that are too poor to count themselves.
 struct SurfaceReference {
   std::array<VoxelSet, 3> raw;      // any surface
-  std::array<VoxelSet, 3> outside;  // surface from which some straight line leaves the structure
-  // A point of each voxel of outside[0], in its order, that sees out: of the samples the nearest to
-  // the voxel's centre.
+  std::array<VoxelSet, 3> counted;  // surface that sees out; or what holds an area sample
+  std::size_t area_samples = 0;     // of the config
+  // A point of each voxel of counted[0], in its order, by which it counts: of the samples (that see
+  // out) the nearest to the voxel's centre.
   std::vector<Vec3f> points_world_m;
   // Samples of the surface that sees out, each of which stands for as much area as any other, so
   // that a mean over them is one over the area: recall and completeness. At most kAreaSamples.
@@ -66,6 +72,11 @@ SurfaceReference make_surface_reference(const World& world, const RayScene& scen
 /// and of what stands around it, and by the config.
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
                                           const ReferenceConfig& config, int threads);
+
+/// What coverage counts, for programs: "outside" or "area_samples".
+std::string reference_name(std::size_t area_samples);
+/// For people, behind "voxels": "with visible surface of a tenth of their face".
+std::string reference_words(std::size_t area_samples);
 
 /// {"0.05", "0.10", "0.50"} of the run directory.
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,

@@ -14,6 +14,7 @@ int main(int count, char** arguments) {
   settings.cameras = {{.name = "rgbd", .width_px = 160, .height_px = 120, .range_max_m = 5}};
   settings.planner.cloud.leaf_m = 0.05;
   settings.planner.agvs.step_m = 0.7;
+  settings.planner.fvs.entropy_threshold_nat = 0.01;
   settings.planner.validity.collision_radius_m = 0.8;
   settings.planner.termination.max_iterations = 12;
 

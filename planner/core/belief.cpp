@@ -50,7 +50,7 @@ bool PlannerModel::can_pitch(double gimbal_pitch_rad) const {
 }
 
 Belief::Belief(const PlannerModel& model)
-    : grid(model.belief.map, model.workspace_m),
+    : grid(model.belief.map, model.workspace_m, model.belief.object_bounds_m),
       cloud(model.belief.cloud, grid.geometry()),
       shadow(model.belief.shadow, grid.geometry()),
       floor_z_m(model.belief.floor_z_m) {}
@@ -86,7 +86,8 @@ void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frame
     return model.cameras[static_cast<std::size_t>(frames[i].camera)];
   };
   parallel_for(scratch.threads, frames.size(), [&](std::size_t i) {
-    compute_frame_rays(frames[i], camera_of(i), model.belief.floor_z_m, rays[i]);
+    compute_frame_rays(frames[i], camera_of(i), model.belief.floor_z_m, rays[i],
+                       model.belief.map.no_return);
   });
   const auto add_to_map = [&](std::size_t i) {
     belief.grid.apply(scratch.inserter.compute_update(rays[i], frames[i], camera_of(i), belief.grid,

@@ -23,6 +23,7 @@ struct BeliefConfig {
   OccupancyConfig map = {};
   CloudConfig cloud = {};
   double floor_z_m = 0.3;  // returns below are the floor: they clear, but mark nothing
+  Box3 object_bounds_m = kEverywhere_m;
   ShadowConfig shadow = {};
   bool keeps_shadow = false;  // whether anybody asks for Belief::shadow
 };

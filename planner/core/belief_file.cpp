@@ -125,7 +125,8 @@ void take_voxels(Reader& in, OccupancyGrid& grid) {
     const float log_odds = run == Run::measured ? in.take<float>() : 0.0F;
     const std::size_t end = first + length;
     for (auto v = static_cast<VoxelIndex>(first); run != Run::unmeasured && v < end; ++v) {
-      if (run == Run::measured ? grid.restore(v, log_odds) : grid.predict(v)) continue;
+      if (run == Run::predicted) grid.predict(v);
+      if (run == Run::predicted || grid.restore(v, log_odds)) continue;
       in.refuse(fmt::format("log-odds {} are beyond the clamping bounds", log_odds));
     }
     first = end;

@@ -55,6 +55,11 @@ bool Plan::is_chosen(std::size_t candidate) const {
   return std::find(chosen.begin(), chosen.end(), candidate) != chosen.end();
 }
 
+bool Plan::looks_at(int cluster) const {
+  return std::ranges::any_of(
+      chosen, [&](std::size_t candidate) { return candidates[candidate].cluster == cluster; });
+}
+
 std::map<Rejection, int> rejections_of(const Plan& plan) {
   std::map<std::array<double, 5>, std::optional<Rejection>> last;
   for (const Candidate& candidate : plan.candidates) {

@@ -69,6 +69,7 @@ struct Decision {
   int valid = 0;       // of them not rejected
   Score score = {};
   std::vector<Vec3> via_world_m = {};  // points on the way there; none: straight
+  int plan_view = 1;                   // its number in its plan: from 2 on nothing was decided
 };
 
 /// A sampled view with what became of it.
@@ -80,6 +81,7 @@ struct Candidate {
   std::optional<Rejection> rejected = {};  // nothing: it competed with `score`
   std::vector<Vec3> via_world_m = {};      // points on the way there
   double path_m = 0.0;                     // length of the way
+  std::optional<int> covers = {};          // burst: points left of its cluster's that it sees
   Score score = {};
 };
 
@@ -97,6 +99,7 @@ struct Plan {
   std::vector<std::size_t> chosen = {};          // of the candidates: one for each view
   std::vector<Candidate> candidates = {};
   std::vector<FrontierCluster> clusters = {};  // FVS: those it may try, by Candidate::cluster
+  std::vector<VoxelIndex> frontier = {};       // FVS: of all clusters that there were, ascending
   std::shared_ptr<const TourNotes> tour = {};  // of a tour
 
   bool has_view() const { return !views.empty(); }
@@ -104,6 +107,10 @@ struct Plan {
   const Decision& next() const { return views.front(); }
   /// Whether the candidate of this index is one of the views.
   bool is_chosen(std::size_t candidate) const;
+  /// Whether the views are kept for the points that they cover, and compete by no utility.
+  bool is_burst() const { return !chosen.empty() && candidates[chosen.front()].covers.has_value(); }
+  /// Whether one of them is a view of the cluster of this number.
+  bool looks_at(int cluster) const;
 };
 
 /// How many views each reason refused. One that was checked more than once, as those of a cluster

@@ -73,9 +73,18 @@ std::vector<ViewPose> recent_views(const History& history, int count) {
   return recent;
 }
 
-bool is_back_and_forth(std::span<const Decision> decisions, int moves) {
+bool is_back_and_forth(RepeatedBy repeated_by, std::span<const Decision> decisions, int moves) {
   constexpr double kSame_m = 0.01;
   const auto count = static_cast<std::size_t>(moves);
+  if (repeated_by == RepeatedBy::utilities) {
+    if (moves <= 2 || decisions.size() <= count) return false;
+    const std::span<const Decision> last = decisions.last(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!traits_of(last[i].sampler).is_scored) return false;
+      if (i >= 2 && last[i].score.value != last[i - 2].score.value) return false;
+    }
+    return true;
+  }
   if (moves <= 0 || decisions.size() < count + 2) return false;
   const auto moved_m = [&](std::size_t from, std::size_t to) {
     return (decisions[to].view.p_world_m - decisions[from].view.p_world_m).norm();
@@ -90,13 +99,15 @@ std::optional<Termination> end_after_view(const TerminationConfig& config, const
                                           const History& history) {
   const bool are_enough =
       history.decisions.size() >= static_cast<std::size_t>(config.max_iterations);
+  if (!config.within_plans && !history.ahead.empty()) return std::nullopt;
   if (are_enough) return Termination::max_iterations;
   if (rules.entropy && has_entropy_settled(config, history.entropies_nat)) {
     return Termination::entropy_change;
   }
   if (rules.gain && is_gain_low(config, history.progress)) return Termination::low_gain;
   if (rules.gain && are_points_old(config, history.progress)) return Termination::no_new_points;
-  if (rules.repetition && is_back_and_forth(history.decisions, config.repeated_moves)) {
+  if (rules.repetition &&
+      is_back_and_forth(config.repeated_by, history.decisions, config.repeated_moves)) {
     return Termination::repeated_motion;
   }
   return std::nullopt;
@@ -106,8 +117,9 @@ std::variant<Decision, Termination> next_decision(const TerminationConfig& confi
                                                   const ViewPose& current, History& history,
                                                   const std::function<Plan()>& make_plan) {
   if (history.ahead.empty()) {
-    const Plan plan = make_plan();
+    Plan plan = make_plan();
     if (!plan.has_view()) return plan.end;
+    for (int number = 1; Decision & view : plan.views) view.plan_view = number++;
     history.ahead.assign(plan.views.rbegin(), plan.views.rend());
   }
   Decision next = history.ahead.back();

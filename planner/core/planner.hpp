@@ -11,6 +11,10 @@
 
 namespace gnbv {
 
+/// What repeats when the vehicle goes back and forth: places, or the utilities of its views at lag
+/// 2 (the authors' code).
+enum class RepeatedBy { places, utilities };
+
 /// Defaults: Table 1 with the released window; max_iterations is the paper's longest aircraft run.
 /// What the paper does not have is off. Zero switches a rule off.
 struct TerminationConfig {
@@ -18,11 +22,13 @@ struct TerminationConfig {
   double entropy_change_percent = 0.001;  // |E_n - E_n-1| of the mean of both, in each view ...
   int entropy_window = 5;                 // ... of so many in a row
   int repeated_moves = 10;                // back and forth, in a row
-  double max_distance_m = 0.0;            // planned, from the first view on
-  double max_flight_time_s = 0.0;         // simulated, since the mission began
-  double min_new_voxels_per_m = 0.0;      // newly occupied, a planned metre, over the ...
-  int new_voxels_window = 10;             // ... last views; those that only turn end nothing
-  int max_views_without_new_points = 0;   // in a row
+  RepeatedBy repeated_by = RepeatedBy::utilities;
+  bool within_plans = true;              // a plan of several views may end before its last one
+  double max_distance_m = 0.0;           // planned, from the first view on
+  double max_flight_time_s = 0.0;        // simulated, since the mission began
+  double min_new_voxels_per_m = 0.0;     // newly occupied, a planned metre, over the ...
+  int new_voxels_window = 10;            // ... last views; those that only turn end nothing
+  int max_views_without_new_points = 0;  // in a row
 };
 
 /// Which of the rules that read the belief end a mission; its planner says.
@@ -58,9 +64,12 @@ double planned_m(const History& history, const Vec3& from_world_m, const Decisio
 /// The last views, so many at most.
 std::vector<ViewPose> recent_views(const History& history, int count);
 
-/// Whether each of the last `moves` moves only undoes the one before: the position is that of two
-/// views ago (within a centimetre), and another than that of the view before.
-bool is_back_and_forth(std::span<const Decision> decisions, int moves);
+/// Whether the vehicle goes back and forth. `places`: each of the last `moves` moves only undoes
+/// the one before, so that the position is that of two views ago (within a centimetre), and another
+/// than that of the view before. `utilities`: of the last `moves` views, more than which were
+/// taken, each has a utility, that of the one two before it (NBVHistory::isRepeatingMotions).
+/// 0 moves: never.
+bool is_back_and_forth(RepeatedBy repeated_by, std::span<const Decision> decisions, int moves);
 
 /// The first of the rules that ends the mission after a view, in the order of Termination.
 std::optional<Termination> end_after_view(const TerminationConfig& config, const EndRules& rules,

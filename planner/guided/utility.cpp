@@ -192,7 +192,6 @@ UtilityTraits utility_traits(std::string_view name) {
 UtilityTraits needs_of(const UtilityConfig& config) {
   if (is_user_utility(config.name)) return needs_of_words(config.python.source);
   UtilityTraits needs = utility_named(config.name).traits;
-  needs.prediction |= needs.baseline && config.prediction_hides_hits;
   needs.prediction &= config.gamma > 0.0;
   return needs;
 }
@@ -202,7 +201,8 @@ ViewOptions view_options(const UtilityConfig& config, const ShadowBand& shadow,
   const UtilityTraits needs = needs_of(config);
   const ReleasedSlips slips = {
       .excludes_hit_voxel = needs.baseline && config.hit_voxel == HitVoxel::excluded,
-      .prediction_hides_hits = needs.baseline && needs.prediction};
+      .prediction_hides_hits = needs.eq2 && needs.prediction && config.prediction_hides_hits,
+      .drops_leaving_rays = needs.baseline && config.leaving_rays == LeavingRays::dropped};
   return {.detail = needs.rays ? ViewDetail::rays : ViewDetail::voxels,
           .legacy_visibility = config.legacy_visibility,
           .sparse_below = sparse_below,

@@ -23,6 +23,7 @@ struct ViewOptions;
 enum class DensityTerm { sparse, literal };
 enum class IgCounting { per_ray, unique };
 enum class HitVoxel { counted, excluded };
+enum class LeavingRays { counted, dropped };
 enum class DistanceAlong { path, straight };
 
 /// What bircher_volume pays for a cubic metre of visible space.
@@ -62,9 +63,11 @@ struct UtilityConfig {
   bool normalise_weights = true;  // beta and gamma divided by their sum (released code)
   /// bircher, isler: a voxel counts once a ray that crosses it (released code), or once.
   IgCounting ig_counting = IgCounting::per_ray;
-  HitVoxel hit_voxel = HitVoxel::counted;  // that ends a ray; the released code excludes it, and
-  bool prediction_hides_hits = false;      // has this slip: see ReleasedSlips
-  bool legacy_visibility = false;          // see ViewOptions
+  // slips of the released code, see ReleasedSlips: two of the baselines; the third is Proposed's
+  HitVoxel hit_voxel = HitVoxel::counted;
+  LeavingRays leaving_rays = LeavingRays::counted;
+  bool prediction_hides_hits = false;
+  bool legacy_visibility = false;  // see ViewOptions
   VolumeWeights volume_weights = {};
   ShadowConfig shadow = {};
   UserFunctionConfig python = {};
@@ -102,7 +105,7 @@ struct UtilityTraits {
   bool shadow = false;          // a ShadowBand
   bool prediction = false;      // predicted surface (section 2.3)
   bool eq2 = false;             // alpha, beta, gamma, density_term, normalise_weights
-  bool baseline = false;        // ig_counting, hit_voxel, prediction_hides_hits
+  bool baseline = false;        // ig_counting, hit_voxel, leaving_rays
   bool lambda = false;          // lambda_per_m
   bool bircher_lambda = false;  // bircher_lambda_per_m
   bool distance = false;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/map/ray_walk.hpp"
-
 namespace gnbv {
 namespace {
 
@@ -16,32 +14,6 @@ std::vector<ViewPose> pitched(const ViewPose& view, std::span<const double> pitc
 }
 
 // ---- frontiers
-
-/// Whether the point lies in the camera's frustum, between its ranges.
-bool is_in_frustum(const CameraModel& camera, const Isometry& T_world_body, const Vec3& p_world_m) {
-  const CameraConfig& config = camera.config;
-  const Vec3 p_camera_m = (T_world_body * camera.T_body_camera).inverse() * p_world_m;
-  const double depth_m = p_camera_m.z();
-  return depth_m >= config.range_min_m && depth_m <= config.range_max_m &&
-         std::fabs(p_camera_m.x()) <= depth_m * std::tan(0.5 * config.fov_x_rad) &&
-         std::fabs(p_camera_m.y()) <= depth_m * std::tan(0.5 * config.fov_y_rad);
-}
-
-/// Whether the camera sees the voxel's centre: in the frustum, no occupied voxel before it.
-bool sees_voxel(const CameraModel& camera, const Isometry& T_world_body, const OccupancyGrid& grid,
-                VoxelIndex v) {
-  const GridGeometry& geometry = grid.geometry();
-  const Vec3 center_m = geometry.center_m(geometry.key_at(v));
-  if (!is_in_frustum(camera, T_world_body, center_m)) return false;
-  const Vec3 origin_m = T_world_body * camera.T_body_camera.translation();
-  bool is_clear = true;  // the walk ends before the voxel itself
-  walk_ray(geometry, origin_m.cast<float>(), center_m.cast<float>(), [&](const Key& key) {
-    is_clear =
-        !geometry.contains(key) || grid.state(geometry.index_of(key)) != VoxelState::occupied;
-    return is_clear;
-  });
-  return is_clear;
-}
 
 /// Whether a view of sample_fvs() was one of this centroid's, or of one no further than `apart_m`
 /// from it.
@@ -78,8 +50,11 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
   std::vector<ViewPose> views;
   const auto add = [&](int ix, int iy, int iz, int turn) {
     const bool is_here = ix == 0 && iy == 0 && iz == 0;
-    if (is_here && !(config.rotation_only && scale <= 1.0)) return;
+    const bool is_finest = scale <= 1.0;
+    const bool may_turn = config.rotation_only && (is_finest || config.rotation_at_all_scales);
+    if (is_here && !may_turn) return;
     const bool is_current = is_here && turn == 0;
+    const bool may_stay = is_finest && config.current_pose;
     ViewPose view = current;
     if (!is_current) {
       view.p_world_m += R_world_yaw * (step_m * Vec3(ix, iy, iz));
@@ -87,7 +62,8 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
     }
     for (const ViewPose& one : pitched(view, pitches_rad)) {
       const double pitch_rad = one.gimbal_pitch_rad - current.gimbal_pitch_rad;
-      if (!is_current || std::fabs(pitch_rad) > kSamePitch_rad) views.push_back(one);
+      const bool stays = is_current && std::fabs(pitch_rad) <= kSamePitch_rad;
+      if (!stays || may_stay) views.push_back(one);
     }
   };
   for (int ix = -1; ix <= 1; ++ix) {
@@ -103,9 +79,10 @@ std::vector<ViewPose> sample_agvs(const AgvsConfig& config, const ViewPose& curr
 std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_world_m,
                                  std::span<const double> pitches_rad) {
   std::vector<ViewPose> views;
+  const int bearings = config.views_per_layer + (config.first_bearing_twice ? 1 : 0);
   for (int layer = -1; layer <= 1; ++layer) {
-    for (int i = 0; i < config.views_per_layer; ++i) {
-      const double bearing_rad = 2.0 * kPi * i / config.views_per_layer;
+    for (int i = 0; i < bearings; ++i) {
+      const double bearing_rad = 2.0 * kPi * (i % config.views_per_layer) / config.views_per_layer;
       const Vec3 outwards(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
       const Vec3 p_world_m = centroid_world_m + config.radius_m * outwards +
                              layer * config.layer_step_m * Vec3::UnitZ();
@@ -116,12 +93,31 @@ std::vector<ViewPose> sample_fvs(const FvsConfig& config, const Vec3& centroid_w
   return views;
 }
 
-std::vector<FrontierCluster> clusters_to_try(const FvsConfig& fvs, const Belief& belief,
-                                             std::span<const Decision> decisions,
-                                             const Vec3& from_world_m, FrontierMarks& marks) {
+void set_mode_switches(FvsConfig& config) {
+  const FvsConfig burst;
+  const bool is_single = config.mode == FvsMode::single;
+  const auto set = [&](auto& value, const auto& single, const auto& of_burst) {
+    value = is_single ? single : of_burst;
+  };
+  FrontierConfig& frontier = config.frontier;
+  set(config.entropy_window, 4, burst.entropy_window);
+  set(config.entropy_lag, 0, burst.entropy_lag);
+  set(config.voxels_in_view, VoxelsInView::frusta, burst.voxels_in_view);
+  set(config.radius_m, 3.5, burst.radius_m);
+  set(config.needs_visible_cluster, true, burst.needs_visible_cluster);
+  set(frontier.occupied_only, true, burst.frontier.occupied_only);
+  set(frontier.linking, FrontierLinking::chebyshev, burst.frontier.linking);
+  set(frontier.max_cluster_voxels, 0, burst.frontier.max_cluster_voxels);
+  set(frontier.max_extent_m, 2.0, burst.frontier.max_extent_m);
+}
+
+void find_clusters_to_try(const FvsConfig& fvs, const Belief& belief,
+                          std::span<const Decision> decisions, const Vec3& from_world_m,
+                          FrontierMarks& marks, Plan& plan) {
   constexpr double kSame_voxels = 3.0;
-  std::vector<FrontierCluster> clusters =
-      find_frontiers(fvs.frontier, belief.grid, belief.cloud, marks);
+  std::vector<FrontierCluster>& clusters = plan.clusters;
+  clusters = find_frontiers(fvs.frontier, belief.grid, belief.cloud, marks);
+  plan.frontier = voxels_of(clusters);
   const double apart_m = kSame_voxels * belief.grid.geometry().resolution_m();
   const auto is_looked_at_enough = [&](const FrontierCluster& cluster) {
     return fvs.looks_max <=
@@ -141,36 +137,23 @@ std::vector<FrontierCluster> clusters_to_try(const FvsConfig& fvs, const Belief&
   };
   std::stable_sort(clusters.begin(), clusters.end(), comes_first);
   clusters.resize(std::min(clusters.size(), static_cast<std::size_t>(fvs.tries)));
-  return clusters;
 }
 
-std::optional<Rejection> cluster_rejection(std::span<const CameraModel> cameras,
-                                           const OccupancyGrid& grid,
-                                           const FrontierCluster& cluster, const ViewPose& view,
-                                           bool needs_visible_cluster) {
-  const Isometry T = T_world_body(view);
-  const std::vector<CameraModel> looking = turned(cameras, view.gimbal_pitch_rad);
-  const auto has_centroid = [&](const CameraModel& camera) {
-    return is_in_frustum(camera, T, cluster.centroid_world_m);
-  };
-  if (std::none_of(looking.begin(), looking.end(), has_centroid)) {
-    return Rejection::cluster_outside_fov;
-  }
-  if (!needs_visible_cluster) return std::nullopt;
-  for (const CameraModel& camera : looking) {
-    for (const VoxelIndex v : cluster.voxels) {
-      if (sees_voxel(camera, T, grid, v)) return std::nullopt;
-    }
-  }
-  return Rejection::cluster_hidden;
+double voxels_in_view(VoxelsInView which, const PlannerModel& model) {
+  if (which == VoxelsInView::frusta) return model.view_voxels;
+  const CameraConfig& c = model.cameras.front().config;
+  const double beyond = std::pow(c.range_min_m / c.range_max_m, 3);
+  return 0.25 * frustum_m3(c) * (1.0 - beyond) / std::pow(model.belief.map.resolution_m, 3);
 }
 
-bool is_entropy_still(double threshold_nat, int window, const History& history,
+bool is_entropy_still(double threshold_nat, int window, int lag, const History& history,
                       double view_voxels) {
   const std::vector<double>& all_nat = history.entropies_nat;
   const auto changes = static_cast<std::size_t>(window);
-  if (threshold_nat <= 0.0 || all_nat.size() < changes + 1) return false;
-  for (std::size_t i = all_nat.size() - changes; i < all_nat.size(); ++i) {
+  const auto left_out = static_cast<std::size_t>(lag);
+  if (threshold_nat <= 0.0 || all_nat.size() < changes + left_out + 1) return false;
+  const std::size_t end = all_nat.size() - left_out;
+  for (std::size_t i = end - changes; i < end; ++i) {
     if (std::fabs(all_nat[i] - all_nat[i - 1]) / view_voxels >= threshold_nat) return false;
   }
   return true;
@@ -179,8 +162,10 @@ bool is_entropy_still(double threshold_nat, int window, const History& history,
 double next_agvs_scale(const AgvsConfig& config, const History& history, double view_voxels) {
   const std::span<const Decision> decisions = history.decisions;
   const bool is_at_minimum =
-      is_utility_low(config, decisions) || is_back_and_forth(decisions, config.repeated_moves) ||
-      is_entropy_still(config.entropy_threshold_nat, config.entropy_window, history, view_voxels);
+      is_utility_low(config, decisions) ||
+      is_back_and_forth(config.repeated_by, decisions, config.repeated_moves) ||
+      is_entropy_still(config.entropy_threshold_nat, config.entropy_window, 0, history,
+                       view_voxels);
   if (!config.scales || !is_at_minimum) return 1.0;
   const double last_scale = decisions.empty() ? 1.0 : decisions.back().scale;
   return std::min(last_scale * config.scale_factor, config.scale_max);

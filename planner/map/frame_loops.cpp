@@ -24,7 +24,8 @@ void rays_of_row(const PixelRow& given) {
   const float range_max_m = static_cast<float>(row.range_max_m);
   for_lanes(row.width, [&](int u, int left) {
     const Floats depth_m = load(row.depth_m + u, left);
-    const Mask has_ray = less_equal(all(row.range_min_m), depth_m);
+    const Mask has_ray =
+        less_equal(all(row.range_min_m), depth_m) & less_equal(depth_m, all(row.says_until_m));
     const Mask is_return = less_equal(depth_m, all(row.range_max_compared_m));
     const Doubles returned_m = widen(select(is_return, depth_m, all(__builtin_inff())));
     const Doubles along_m = select_less(returned_m, infinite, returned_m, all(row.range_max_m));

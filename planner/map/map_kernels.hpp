@@ -19,12 +19,14 @@ enum class VoxelState : std::uint8_t { unknown = 0, free = 1, occupied = 2 };
 /// All that the rays of a candidate view ask of a voxel, in one load (one lane of a gather):
 /// bits 0-1: VoxelState; bit 2: a scan has touched the voxel; bit 3: symmetry predicts surface;
 /// bit 4: in the shadow band behind a surface; the first measurement clears bits 3 and 4;
-/// bits 8-31: ln 2 minus the entropy of Eq. (1), in 2^-24 nat. An untouched voxel has 0.
+/// bit 5: outside the object bounds, where nothing counts: its entropy is 0;
+/// bits 8-31: ln 2 minus the entropy, Eq. (1), in 2^-24 nat. An untouched voxel inside has 0.
 using VoxelWord = std::uint32_t;
 constexpr VoxelWord kStateMask = 3U;
 constexpr VoxelWord kMeasuredBit = 4U;
 constexpr VoxelWord kPredictedBit = 8U;
 constexpr VoxelWord kShadowBit = 16U;
+constexpr VoxelWord kOutsideBit = 32U;
 constexpr unsigned kKnownShift = 8;
 constexpr std::uint32_t kLn2Units = 11629080;  // ln 2 in 2^-24 nat; exactly float32's ln 2
 constexpr double kEntropyUnit_nat = 0x1p-24;
@@ -40,9 +42,13 @@ constexpr VoxelWord measured_word(VoxelState state, std::uint32_t entropy_units)
 
 // ---- depth frames (frame_loops.cpp) -------------------------------------------------------------
 
+/// What a pixel without a return says: all is free up to range_max_m (the released code), or
+/// nothing.
+enum class NoReturn { free, unknown };
+
 /// What a pixel of a depth frame says. The rules are the released code's, see FIDELITY.md.
 enum class PixelRay : std::uint8_t {
-  none = 0,    // kInvalidRange, or nearer than range_min_m: says nothing
+  none = 0,    // kInvalidRange, nearer than range_min_m, or NoReturn::unknown: says nothing
   clears = 1,  // no return, or beyond range_max_m (a plane), or below the floor: free up to the end
   hits = 2     // free up to the end, which is surface
 };
@@ -55,6 +61,7 @@ struct PixelRow {
   double down[3], origin_m[3];
   double range_max_m, floor_z_m;
   float range_min_m, range_max_compared_m;  // depths are compared as float32
+  float says_until_m;                       // infinite: no return says something, too
   float* end_m[3];                          // (width), out
   PixelRay* kind;                           // (width), out
   float* inverse_depth;  // (width + kPadding), out: 1 / depth of the end, infinite without a ray

@@ -30,7 +30,8 @@ void need_between(const char* key, double value, double low, double high) {
 
 }  // namespace
 
-OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m)
+OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m,
+                             const Box3& object_bounds_m)
     : config_(config), geometry_(bounds_m, config.resolution_m) {
   need_between("prob_hit", config.prob_hit, 0.5, 1.0);
   need_between("prob_miss", config.prob_miss, 0.0, 0.5);
@@ -59,6 +60,16 @@ OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m
   log_odds_ = ZeroedArray<float>(voxels);
   words_ = ZeroedArray<VoxelWord>(voxels + kPadding);
   total_entropy_ = total_units(entropy_nat_of(0.0F)) * static_cast<std::int64_t>(voxels);
+  if (!object_bounds_m.contains(bounds_m)) leave_out_but(object_bounds_m);
+}
+
+void OccupancyGrid::leave_out_but(const Box3& object_bounds_m) {
+  const auto voxels = static_cast<VoxelIndex>(geometry_.voxel_count());
+  for (VoxelIndex v = 0; v < voxels; ++v) {
+    if (object_bounds_m.contains(geometry_.center_m(geometry_.key_at(v)))) continue;
+    words_[v] = kOutsideBit | kLn2Units << kKnownShift;
+    total_entropy_ -= total_units(entropy_nat_of(0.0F));
+  }
 }
 
 VoxelState OccupancyGrid::state_at(const Vec3& p_world_m) const {
@@ -94,11 +105,12 @@ OccupancyGrid::Step OccupancyGrid::step_by(float delta, float before) const {
 void OccupancyGrid::take_step(VoxelIndex v, const Step& step) {
   const auto is_occupied = [](VoxelWord word) { return state_of(word) == VoxelState::occupied; };
   const VoxelWord word = words_[v];
-  total_entropy_ += step.entropy_gain;
+  const bool is_counted = (word & kOutsideBit) == 0;
+  if (is_counted) total_entropy_ += step.entropy_gain;
   occupied_count_ += is_occupied(step.word) - is_occupied(word);
   predicted_count_ -= (word & kPredictedBit) != 0;
   log_odds_[v] = step.after;
-  words_[v] = step.word;
+  words_[v] = is_counted ? step.word : kOutsideBit | measured_word(state_of(step.word), 0);
 }
 
 void OccupancyGrid::add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo) {
@@ -118,7 +130,7 @@ bool OccupancyGrid::restore(VoxelIndex v, float log_odds) {
 }
 
 bool OccupancyGrid::predict(VoxelIndex v) {
-  if (is_measured(v)) return false;
+  if (is_measured(v) || !is_counted(v)) return false;
   predicted_count_ += !is_predicted(v);
   words_[v] |= kPredictedBit;
   return true;

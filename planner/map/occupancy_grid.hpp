@@ -20,8 +20,9 @@ struct OccupancyConfig {
   double prob_miss = 0.4;
   double clamp_min = 0.1192;
   double clamp_max = 0.971;
-  double occupied_min = 0.6;  // p >= this is occupied
-  double free_max = 0.4;      // p <= this is free, between is unknown
+  double occupied_min = 0.6;            // p >= this is occupied
+  double free_max = 0.4;                // p <= this is free, between is unknown
+  NoReturn no_return = NoReturn::free;  // of depth frames
 };
 
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
@@ -30,11 +31,16 @@ struct ScanUpdate {
   std::vector<VoxelIndex> occupied;
 };
 
+/// The object bounds of who has none.
+inline const Box3 kEverywhere_m = {Vec3::Constant(-1e4), Vec3::Constant(1e4)};
+
 class OccupancyGrid {
  public:
-  /// `bounds_m` is the workspace: the grid holds nothing outside it. Throws BadInput naming the
+  /// `bounds_m` is the workspace: the grid holds nothing outside it. Voxels whose centres lie
+  /// outside the object bounds have no entropy, and no view counts them. Throws BadInput naming the
   /// keys for probabilities out of order.
-  OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m);
+  OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m,
+                const Box3& object_bounds_m = kEverywhere_m);
 
   const OccupancyConfig& config() const { return config_; }
   const GridGeometry& geometry() const { return geometry_; }
@@ -44,15 +50,17 @@ class OccupancyGrid {
   /// Whether any scan has touched the voxel (OctoMap: the node exists).
   bool is_measured(VoxelIndex v) const { return (words_[v] & kMeasuredBit) != 0; }
   VoxelState state(VoxelIndex v) const { return state_of(words_[v]); }
+  /// Whether it lies in the object bounds.
+  bool is_counted(VoxelIndex v) const { return (words_[v] & kOutsideBit) == 0; }
   /// State outside the grid is unknown.
   VoxelState state_at(const Vec3& p_world_m) const;
 
   /// Eq. (1) in nat; ln 2 while unmeasured, 0 at a clamping bound (released code: "ignore entropies
-  /// at clamping points").
+  /// at clamping points") and outside the object bounds.
   float entropy_nat(VoxelIndex v) const {
     return static_cast<float>(entropy_units_of(words_[v])) * static_cast<float>(kEntropyUnit_nat);
   }
-  /// Sum of entropy_nat over all voxels of the workspace, in units of 2^-32 nat, so that no order
+  /// Sum of entropy_nat over all voxels, in units of 2^-32 nat, so that no order
   /// of updates changes it.
   double total_entropy_nat() const { return static_cast<double>(total_entropy_) * 0x1p-32; }
   std::size_t occupied_count() const { return occupied_count_; }
@@ -64,8 +72,9 @@ class OccupancyGrid {
   /// False, and nothing changes, when one has, or when they are beyond the clamping bounds.
   [[nodiscard]] bool restore(VoxelIndex v, float log_odds);
 
-  /// Marks the voxel as predicted to be surface (section 2.3) unless it has been measured; the
-  /// first measurement takes the mark away. Returns whether it is marked now.
+  /// Marks the voxel as predicted to be surface (section 2.3) unless it has been measured or lies
+  /// outside the object bounds; the first measurement takes the mark away. Returns whether it is
+  /// marked now.
   bool predict(VoxelIndex v);
   bool is_predicted(VoxelIndex v) const { return (words_[v] & kPredictedBit) != 0; }
   std::size_t predicted_count() const { return predicted_count_; }
@@ -104,6 +113,7 @@ class OccupancyGrid {
   Step step_to(float after, float before) const;
   Step step_by(float delta, float before) const;
   void take_step(VoxelIndex v, const Step& step);
+  void leave_out_but(const Box3& object_bounds_m);
   void add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& memo);
 
   OccupancyConfig config_;

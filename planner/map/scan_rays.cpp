@@ -35,7 +35,7 @@ std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
 }
 
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
-                        FrameRays& rays) {
+                        FrameRays& rays, NoReturn no_return) {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   const int width = camera.config.width_px;
   const int height = camera.config.height_px;
@@ -53,6 +53,7 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   row.range_max_m = camera.config.range_max_m;
   row.range_min_m = static_cast<float>(camera.config.range_min_m);
   row.range_max_compared_m = static_cast<float>(camera.config.range_max_m);
+  row.says_until_m = no_return == NoReturn::free ? kNone : row.range_max_compared_m;
   row.floor_z_m = floor_z_m;
   Eigen::MatrixX3d across(width + kPadding, 3);  // world part of each column
   for (int a = 0; a < 3; ++a) {

@@ -46,6 +46,6 @@ struct FrameRays {
 
 /// Fills `rays`, reusing its memory.
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
-                        FrameRays& rays);
+                        FrameRays& rays, NoReturn no_return = NoReturn::free);
 
 }  // namespace gnbv

@@ -22,7 +22,8 @@ struct PathSearchConfig {
 /// Defaults: section 3.1.1, and the released configuration where the paper is silent.
 struct ValidityConfig {
   double collision_radius_m = 1.5;
-  double z_min_m = 0.7;  // floor of the navigation box
+  double leg_radius_m = 0.0;  // of the sphere that a straight way has to leave room for; 0: that
+  double z_min_m = 0.7;       // floor of the navigation box
   int recent_poses = 50;
   double recent_distance_m = 0.05;
   double recent_yaw_rad = 0.1;
@@ -30,6 +31,10 @@ struct ValidityConfig {
   PathCheck path = PathCheck::straight;
   PathSearchConfig path_search = {};
 };
+
+inline double leg_radius_m(const ValidityConfig& config) {
+  return config.leg_radius_m > 0.0 ? config.leg_radius_m : config.collision_radius_m;
+}
 
 /// The workspace, with its floor raised to z_min_m.
 inline Box3 navigation_box_m(const ValidityConfig& config, const Box3& workspace_m) {

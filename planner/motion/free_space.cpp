@@ -177,7 +177,7 @@ std::optional<Rejection> FreeSpace::rejection_at(const Vec3& p_world_m,
 
 bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const {
   return no_fly.allows_leg(from_world_m, to_world_m) &&
-         is_path_clear(grid, from_world_m, to_world_m, radius_m);
+         is_path_clear(grid, from_world_m, to_world_m, leg_radius_m);
 }
 
 bool FreeSpace::is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const {

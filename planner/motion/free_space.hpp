@@ -62,8 +62,9 @@ struct FreeSpace {
   const OccupancyGrid& grid;
   const Box3& navigation_m;
   const NoFly& no_fly;
-  double radius_m = 0.0;       // of the vehicle's sphere
-  bool allow_unknown = false;  // unknown voxels count as free
+  double radius_m = 0.0;           // of the vehicle's sphere
+  bool allow_unknown = false;      // unknown voxels count as free
+  double leg_radius_m = radius_m;  // of the sphere on a leg
 
   /// Whether the navigation box holds the point: a lattice walked in steps ends on the box's faces
   /// but for rounding.

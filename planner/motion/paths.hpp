@@ -43,7 +43,12 @@ class ViewChecker {
               const OccupancyGrid& grid, std::span<const ViewPose> recent, const ViewPose& current,
               HeedStop stop = {})
       : config_(config),
-        space_{grid, navigation_m, no_fly, config.collision_radius_m, config.allow_unknown},
+        space_{grid,
+               navigation_m,
+               no_fly,
+               config.collision_radius_m,
+               config.allow_unknown,
+               leg_radius_m(config)},
         recent_(recent),
         current_(current),
         stop_(std::move(stop)) {}

@@ -86,7 +86,7 @@ std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
 double camera_reach_m(const CameraModel& camera) {
   const CameraConfig& c = camera.config;
   const double across = std::hypot(std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
-  return c.range_max_m * std::sqrt(1.0 + across * across) + c.p_body_m.norm();
+  return return_end_m(c) * std::sqrt(1.0 + across * across) + c.p_body_m.norm();
 }
 
 void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camera) {
@@ -101,7 +101,7 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   fy_ = cy_ / static_cast<float>(half_y);
   R_camera_world_ = T_world_camera.linear().transpose().cast<float>();
   origin_world_m_ = T_world_camera.translation().cast<float>();
-  range_max_m_ = static_cast<float>(c.range_max_m);
+  range_max_m_ = static_cast<float>(return_end_m(c));
   depth_m_.assign(static_cast<std::size_t>(width_ * height_), kNoDepth);
   const auto set_rays = [](int pixels, float center, float focal, std::vector<float>& rays) {
     rays.clear();

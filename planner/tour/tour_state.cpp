@@ -162,7 +162,8 @@ TourProblem make_tour_problem(const TourConfig& config, const TourState& state, 
 
 double automatic_step_m(std::span<const CameraModel> cameras, const Box3& navigation_m) {
   double range_m = 0.0;
-  for (const CameraModel& camera : cameras) range_m = std::max(range_m, camera.config.range_max_m);
+  for (const CameraModel& camera : cameras)
+    range_m = std::max(range_m, return_end_m(camera.config));
   const Vec3 size_m = navigation_m.sizes();
   double step_m = std::min(0.25 * range_m, size_m.head<2>().minCoeff() / 8.0);
   while ((size_m / step_m + Vec3::Ones()).prod() > kMostAutomaticNodes) step_m *= 1.1;

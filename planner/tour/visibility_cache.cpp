@@ -153,7 +153,7 @@ std::vector<Vec3> points_to_see(const NodeSearch& search, const Patch& patch, st
     for_each_direction(camera, normal, [&](const Vec3& direction) {
       for (const double share : kDistances) {
         const Key key =
-            geometry.key_of(Vec3(target_m + share * camera.config.range_max_m * direction));
+            geometry.key_of(Vec3(target_m + share * return_end_m(camera.config) * direction));
         const Vec3 center_m = geometry.center_m(key);
         if (!search.space.is_open(search.grid, key)) continue;
         if (!is_hit_first(search.grid, center_m, target_m)) continue;

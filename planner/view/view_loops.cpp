@@ -95,11 +95,12 @@ inline void measure(const ViewMaps& maps, const Bundle& b, Ints word, Ints known
     m.visibility = hn::Max(m.visibility * odds.settled, all(kLeastVisibility));
     return;
   }
-  const Mask unknown = b.seeing & has_none(word, all(kStateMask));
+  const Mask unknown = b.seeing & has_none(word, all(kStateMask | kOutsideBit));
   const Floats entropy = to_floats(all(kLn2Units) - known);
   const Floats visible = m.visibility * entropy;
   m.occlusion_aware = add_where(b.seeing, m.occlusion_aware, visible);
-  if (any(occupied)) measure_hits(occupied, visible, step, m);
+  const Mask hit = without(occupied, has_bit(word, kOutsideBit));
+  if (any(hit)) measure_hits(hit, visible, step, m);
   if (any(unknown)) {
     m.unobserved = add_where(unknown, m.unobserved, visible);
     m.unknown_run = select(unknown, m.unknown_run + visible, all(0.0F));
@@ -186,9 +187,11 @@ constexpr std::size_t kTallyChunk = 64;
 // a chunk adds kTallyChunk / kLanes terms to each lane of LongSum
 constexpr int kChunksPerCarry = LongSum::kTermsPerCarry * kLanes / static_cast<int>(kTallyChunk);
 
-void tally_group(const ViewMaps& maps, std::size_t first, Mask marked, VoxelSums& sums,
+void tally_group(const ViewMaps& maps, std::size_t first, Mask seen, VoxelSums& sums,
                  LongSum& known_sum) {
-  const Ints word = hn::IfThenElseZero(marked, load(maps.words + first));
+  const Ints words = load(maps.words + first);
+  const Mask marked = without(seen, has_bit(words, kOutsideBit));
+  const Ints word = hn::IfThenElseZero(marked, words);
   known_sum.low = known_sum.low + shift_right<kKnownShift>(word);
   sums.visited += count(marked);
   sums.free += count(marked & has_state(word, VoxelState::free));

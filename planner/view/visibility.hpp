@@ -47,18 +47,19 @@ struct VisitMarks {
   std::vector<std::int32_t> occupied;        // seen
 };
 
-/// Two slips of the released code, kept behind switches so that their effect on the paper's tables
-/// can be measured.
+/// Slips of the released code, kept behind switches so that their effect on the paper's tables
+/// can be measured. With one of the first two, the voxels of a ray that hits something are listed
+/// towards the centre of the voxel it hit, and occupied ones count where the list clips them.
 struct ReleasedSlips {
-  /// The voxels of a ray that hits something are listed towards the centre of the voxel it hit and
-  /// without that voxel: occupied voxels count only where the list clips them on the way. A flat
-  /// wall seen head-on shows none.
+  /// The voxel that a ray hits never counts. A flat wall seen head-on shows none.
   bool excludes_hit_voxel = false;
-  /// A ray that hits a surface counts the voxel it hit only when a ray cast among the predicted
-  /// voxels hits one too, at any distance within range.
+  /// It counts only when a ray cast among the predicted voxels hits one too, at any distance within
+  /// range.
   bool prediction_hides_hits = false;
+  /// What a ray crosses adds no entropy per ray when the ray ends outside the object bounds.
+  bool drops_leaving_rays = false;
 
-  bool any() const { return excludes_hit_voxel || prediction_hides_hits; }
+  bool any() const { return excludes_hit_voxel || prediction_hides_hits || drops_leaving_rays; }
 };
 
 /// What is counted of a view, and how.

@@ -25,6 +25,7 @@ enum class Stream : std::uint64_t {
   gust = 12,
   dropped_frame = 13,
   tour_search = 20,
+  area_sample = 21,
 };
 
 struct RandomKey {

@@ -4,6 +4,7 @@
 it). An instruction set that the processor lacks is its next lower one, and counts all the same. The
 hash of another build of the same commit, clang's say, is printed, too: --gnbv, and -s to see it.
 """
+import csv
 import itertools
 import shutil
 
@@ -19,10 +20,14 @@ ROUTE = ('planner.routes.views=[{position_m: [0, 5, 2]}, {position_m: [3.2, 0, 2
 GIMBAL = 'cameras.0.pitch_deg={min: 0, max: 60, step: 30}'
 NO_FLY = 'no_fly=[{min: [2.6, -0.8, 0], max: [4.5, 0.8, 3]}]'
 SCREEN = 'obstacles=[{box_m: {min: [-0.5, -1.6, 0], max: [0.5, -1.5, 1.6]}}]'
+BURSTS = ['planner.fvs.mode=burst', 'planner.fvs.entropy_threshold_nat=1']
 MISSIONS = {
     'proposed': [],
     'bircher_volume': ['planner.utility.name=bircher_volume'],
     'kriegel by A*': ['planner.utility.name=kriegel', 'planner.validity.path=astar'],
+    'bursts': BURSTS,
+    'bursts of two clusters': [*BURSTS, 'planner.fvs.clusters=2', 'planner.fvs.retries=2',
+                               'planner.fvs.views_per_layer=8', 'planner.validity.path=astar'],
     'coarse and random': ['planner.utility.name=random', 'planner.map.resolution_m=0.3'],
     'tour': ['planner.utility.name=tour'],
     'tour of a gimbal': ['planner.utility.name=tour', 'cameras.0.drop_probability=0.3', GIMBAL,
@@ -43,13 +48,13 @@ MISSIONS = {
                            'cameras.0.drop_probability=0.3', 'cameras.0.rate_hz=1',
                            'vehicle.power.return_home=true'],
     'frames in flight': ['cameras.0.rate_hz=5'],
-    'max_distance': ['planner.termination.max_distance_m=12'],
-    'max_flight_time': ['planner.termination.max_flight_time_s=110'],
+    'max_distance': ['planner.termination.max_distance_m=4'],
+    'max_flight_time': ['planner.termination.max_flight_time_s=100'],
     'low_gain': ['planner.termination={min_new_voxels_per_m: 10, new_voxels_window: 2}'],
     'no_new_points': ['planner.map.resolution_m=0.5', 'planner.cloud.leaf_m=0.5',
                       'planner.cloud.profile_leaf_m=0.5',
                       'planner.termination.max_views_without_new_points=2'],
-    'coverage_reached': ['benchmark.stop_at_coverage=0.7'],
+    'coverage_reached': ['benchmark.stop_at_coverage=0.6'],
     'lab_model': ['lab_model'],
 }
 ENDS = ('max_distance', 'max_flight_time', 'low_gain', 'no_new_points', 'coverage_reached')
@@ -68,20 +73,25 @@ def test_a_mission_has_one_hash_and_goes_on_to_it(gnbv, tmp_path, request, views
     for threads, simd in PAIRS[:request.config.option.tries]:
         run = tmp_path / f'{threads}-{simd}'
         Gnbv(gnbv.path, tmp_path, GNBV_SIMD=simd)(
-            *words, '--threads', threads, '--out', run).check({0})
+            *words, '--candidates', '--threads', threads, '--out', run).check({0})
         hashes.setdefault(hash_of(run), []).append((threads, simd))
     print(mission, *hashes)
     assert len(hashes) == 1, hashes
     ended = summary(run)['termination']
     assert mission not in ENDS or ended == mission
-    # as if it had been killed after half of its views
+    # as if it had been killed after half of its views, or after the first one of a burst
     rows = (run / 'iterations.csv').read_text().splitlines(keepends=True)
     assert len(rows) >= 4, f'{ended} after {len(rows) - 1} views'
-    cut = shutil.copytree(run, tmp_path / 'cut', ignore=lambda *_: set(files_of(run)) - {
-        'scenario.yaml', 'inputs.json'})
-    (cut / 'iterations.csv.part').write_text(''.join(rows[:1 + len(rows) // 2]))
-    gnbv(*words, '--out', cut, '--resume').check({0})
-    assert not difference(cut, run)
+    bursts = [i for i, row in enumerate(csv.DictReader(rows)) if row.get('plan_view') == '2']
+    assert bursts or not mission.startswith('bursts')
+    for left in {len(rows) // 2, *bursts}:
+        cut = shutil.copytree(run, tmp_path / f'cut{left}', ignore=lambda *_: set(files_of(run)) - {
+            'scenario.yaml', 'inputs.json'})
+        for name in ('candidates.jsonl', 'beliefs.jsonl'):
+            shutil.copy(run / name, cut / f'{name}.part')
+        (cut / 'iterations.csv.part').write_text(''.join(rows[:1 + left]))
+        gnbv(*words, '--candidates', '--out', cut, '--resume').check({0})
+        assert not difference(cut, run), f'after {left} views'
 
 
 COMMANDS = {

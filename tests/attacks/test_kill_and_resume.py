@@ -11,8 +11,9 @@ import pytest
 from program import difference, files_of, half_written, stopped
 
 TRIES = 50
-SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=30', '--frames', '--candidates',
-         '--quiet']
+# with bursts in the midst of which it may die
+SMOKE = ['smoke', '--set', 'planner.termination.max_iterations=30', '--set',
+         'planner.fvs.entropy_threshold_nat=1', '--frames', '--candidates', '--quiet']
 SWEEP = 'scenarios: smoke\nutilities: [proposed, bircher]\nseeds: 2\n'
 SHORT = ['--quiet', '--set', 'planner.termination.max_iterations=3']
 MANY = {

@@ -95,7 +95,8 @@ std::string candidates_of(const std::filesystem::path& folder, const std::vector
   watch.plan = [&](const auto&... all) { file.write(all...); };
   const MissionInputs inputs = {
       .observers = {&watch}, .should_stop = [&] { return views >= stop_after; }, .replay = replay};
-  const Flown flown(smoke({"planner.termination.max_iterations=6"}), inputs);
+  const Flown flown(smoke({"planner.termination.max_iterations=6", "planner.fvs.mode=single"}),
+                    inputs);
   file.finish();
   return read_file(folder / "candidates.jsonl");
 }
@@ -122,12 +123,12 @@ TEST(CandidatesFile, IsRefusedForARunThatDidNotWriteOneBefore) {
   EXPECT_NO_THROW(CandidatesFile(temp.path(), 1));  // the start alone is no decision
 }
 
-/// A smoke mission that writes beliefs.jsonl, and what its planner counted of each view that it
-/// chose, by the same belief.
+/// A smoke mission that writes beliefs.jsonl, and by the iteration of its first view each plan of
+/// which it tells, with what the planner counted of that view by the same belief.
 struct Believed {
   std::vector<BelievedVoxels> views;
-  std::vector<ViewStats> counted;
-  std::vector<bool> asked_fvs;
+  std::map<std::size_t, ViewStats> counted;
+  std::map<std::size_t, Plan> plans;
   std::string sha256;
 
   explicit Believed(const std::vector<std::string>& overrides) {
@@ -135,17 +136,15 @@ struct Believed {
     const Scenario scenario = smoke(overrides);
     const PlannerModel model = planner_model(scenario);
     const Belief* belief = nullptr;
-    counted.emplace_back();  // the start
-    asked_fvs.push_back(false);
     Watch watch;
     watch.view = [&](const ViewRecord&, const Belief& now) { belief = &now; };
-    watch.plan = [&](std::size_t, const Plan& plan) {
+    watch.plan = [&](std::size_t iteration, const Plan& plan) {
       if (!plan.has_view()) return;
       VisitMarks marks(belief->grid.geometry().voxel_count());
       const ViewPose& view = plan.next().view;
-      counted.push_back(evaluate_view(belief->grid, belief->cloud,
-                                      model.rays_at(view.gimbal_pitch_rad), view, marks));
-      asked_fvs.push_back(plan.candidates.at(plan.chosen.at(0)).cluster >= 0);
+      counted[iteration] = evaluate_view(belief->grid, belief->cloud,
+                                         model.rays_at(view.gimbal_pitch_rad), view, marks);
+      plans[iteration] = plan;
     };
     DecisionLog log(scenario, folder.path(), 0);
     const Flown flown(scenario, {.observers = {&watch, &log}});
@@ -157,9 +156,9 @@ struct Believed {
 
 TEST(BeliefLog, HasTheVoxelsThatThePlannerCounted) {
   const Believed believed({});
-  ASSERT_EQ(believed.views.size(), believed.counted.size());
-  for (std::size_t i = 1; i < believed.views.size(); ++i) {
-    EXPECT_EQ(voxel_count(believed.views[i].unknown), believed.counted[i].unknown_voxels) << i;
+  for (const auto& [i, counted] : believed.counted) {
+    if (believed.plans.at(i).views.size() > 1) continue;
+    EXPECT_EQ(voxel_count(believed.views.at(i).unknown), counted.unknown_voxels) << i;
   }
   EXPECT_GT(voxel_count(believed.views.at(1).unknown), 0U);
 }
@@ -174,8 +173,7 @@ TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirstAndTheClusterThatWasLooked
   plan.candidates = {{.view = plan.next().view, .sampler = Sampler::fvs, .cluster = 1}};
   plan.chosen = {0};
   plan.clusters = {{.voxels = {3, 4}}, {.voxels = {7, 9}}};  // in whatever order they were tried
-  FrontierMarks marks(count);
-  const BelievedVoxels voxels = believed_voxels(model, {}, belief, plan, marks);
+  const BelievedVoxels voxels = believed_voxels(model, belief, plan);
   VisitMarks visits(count);
   const ViewStats counted =
       evaluate_view(belief.grid, belief.cloud, model.rays_at(0.0), plan.next().view, visits);
@@ -183,6 +181,19 @@ TEST(BeliefLog, HasThePredictedVoxelsThatRaysMeetFirstAndTheClusterThatWasLooked
   EXPECT_EQ(voxel_count(voxels.unknown), counted.unknown_voxels);
   EXPECT_GT(counted.predicted_voxels, 0U);
   EXPECT_EQ(voxels.looked_at, runs_of(plan.clusters[1].voxels));
+  // of a burst all that its views were for
+  plan.views.push_back({.view = {Vec3(1, 0, 2), 0.9}});
+  plan.candidates.push_back({.view = plan.views[1].view, .sampler = Sampler::fvs, .cluster = 0});
+  plan.chosen = {0, 1};
+  const BelievedVoxels of_burst = believed_voxels(model, belief, plan);
+  std::set<VoxelIndex> unknown;
+  for (const Decision& next : plan.views) {
+    const VoxelsInSight seen = voxels_in_sight(belief.grid, model.rays_at(0.0), next.view);
+    unknown.insert(seen.unknown.begin(), seen.unknown.end());
+  }
+  EXPECT_GT(unknown.size(), voxel_count(voxels.unknown));
+  EXPECT_EQ(of_burst.unknown, runs_of(std::vector(unknown.begin(), unknown.end())));
+  EXPECT_EQ(voxel_count(of_burst.looked_at), 4U);
 }
 
 TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
@@ -191,13 +202,17 @@ TEST(BeliefLog, HasFrontiersWhereViewsWereSampledAroundThem) {
   const Believed believed(stuck);
   EXPECT_EQ(believed.sha256, result_sha256(Flown(smoke(stuck)).result));  // it changes nothing
   std::size_t looked = 0;
-  for (std::size_t i = 1; i < believed.views.size(); ++i) {
-    const auto& [unknown, predicted, frontier, looked_at] = believed.views[i];
-    EXPECT_EQ(!looked_at.empty(), believed.asked_fvs[i]) << i;
+  std::size_t bursts = 0;
+  for (const auto& [i, plan] : believed.plans) {
+    const auto& [unknown, predicted, frontier, looked_at] = believed.views.at(i);
+    EXPECT_EQ(!looked_at.empty(), plan.candidates.at(plan.chosen.at(0)).cluster >= 0) << i;
+    EXPECT_EQ(frontier, runs_of(plan.frontier)) << i;
     EXPECT_GE(voxel_count(frontier), voxel_count(looked_at)) << i;
     looked += voxel_count(looked_at);
+    bursts += plan.is_burst() ? 1 : 0;
   }
   EXPECT_GT(looked, 0U);
+  EXPECT_GT(bursts, 0U);
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
       flight.world, flight.scene, {.floor_z_m = flight.scenario.planner.floor_z_m}, 2);
   // all of smoke can be seen; what a real vehicle's errors cost beside kOracleShare is little
   const std::array<double, 3> coverage =
-      coverage_at_all_sizes(reference.outside, flight.result.belief.cloud.points_world_m());
+      coverage_at_all_sizes(reference.counted, flight.result.belief.cloud.points_world_m());
   EXPECT_GT(coverage[0], kOracleShare - 0.03);
 }
 

@@ -1,4 +1,4 @@
-// Frontier views at a local minimum: which clusters are looked at, and in which order.
+// Single frontier views at a local minimum: which clusters are looked at, and in which order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +8,17 @@
 namespace gnbv {
 namespace {
 
+/// A planner that answers one frontier view at a time.
+SmallPlanner of_single_views(const std::function<void(PlannerConfig&)>& change = {}) {
+  return SmallPlanner([&](PlannerConfig& c) {
+    c.fvs.mode = FvsMode::single;
+    set_mode_switches(c.fvs);
+    if (change) change(c);
+  });
+}
+
 TEST(FrontierViews, LooksAtTheNearestFrontierWhereEntropyStandsStill) {
-  const SmallPlanner planner;
+  const SmallPlanner planner = of_single_views();
   const Belief belief = thin_wall_ahead(planner);
   const Plan at_minimum = planner.plan(belief, still_history());
   ASSERT_TRUE(at_minimum.has_view());
@@ -46,7 +55,7 @@ Belief shell_of_frontiers(const SmallPlanner& planner) {
 
 /// Where nothing but the frontiers' own views may be taken.
 SmallPlanner model_with_fvs(const std::function<void(FvsConfig&)>& change) {
-  return SmallPlanner([&](PlannerConfig& c) {
+  return of_single_views([&](PlannerConfig& c) {
     c.fvs.agvs_when_stuck = false;
     change(c.fvs);
   });
@@ -103,7 +112,7 @@ TEST(FrontierViews, FvsLeavesWhatWasLookedAtOftenEnough) {
 TEST(FrontierViews, PooledClustersCompeteAndOthersTakeTheirTurn) {
   // the lone frontier is nearer, the wall the better view
   const auto plan_with = [](bool pool) {
-    const SmallPlanner planner([&](PlannerConfig& c) {
+    const SmallPlanner planner = of_single_views([&](PlannerConfig& c) {
       c.utility.lambda_per_m = 0.0;
       c.fvs.pool_clusters = pool;
       c.fvs.tries = 2;
@@ -145,7 +154,7 @@ TEST(FrontierViews, LargestClustersFirstIsASwitch) {
 TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
   for (const char* name : {"proposed", "bircher", "isler"}) {
     const auto sampler = [&](bool has_fvs) {
-      const SmallPlanner planner([&](PlannerConfig& c) {
+      const SmallPlanner planner = of_single_views([&](PlannerConfig& c) {
         c.utility.name = name;
         c.fvs.enabled = has_fvs;
       });
@@ -161,20 +170,22 @@ TEST(FrontierViews, WithoutFrontierViewsEveryUtilityStaysOnTheGrid) {
 }
 
 TEST(FrontierViews, FallsBackToTheGridWhenFvsFindsNothing) {
-  Belief belief = wall_ahead(SmallPlanner(), everywhere);  // no points: no frontier
-  const Plan fallback = SmallPlanner().plan(belief, still_history());
+  const SmallPlanner planner = of_single_views();
+  const Belief belief = wall_ahead(planner, everywhere);  // no points: no frontier
+  const Plan fallback = planner.plan(belief, still_history());
   ASSERT_TRUE(fallback.has_view());
   EXPECT_EQ(fallback.next().sampler, Sampler::agvs);
   // the paper to the letter: the mission is over
-  const SmallPlanner literal([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
+  const SmallPlanner literal =
+      of_single_views([](PlannerConfig& c) { c.fvs.agvs_when_stuck = false; });
   EXPECT_FALSE(literal.plan(belief, still_history()).has_view());
 }
 
 TEST(FrontierViews, LiteralClustersAreOneAndItsCentroidMayBeUnreachable) {
   // cut, some cluster has a view; uncut, the centroid is in the middle of a closed box and every
   // view around it is inside or beyond the wall
-  const SmallPlanner cut;
-  const SmallPlanner uncut([](PlannerConfig& c) {
+  const SmallPlanner cut = of_single_views();
+  const SmallPlanner uncut = of_single_views([](PlannerConfig& c) {
     c.fvs.frontier.max_extent_m = 0.0;
     c.fvs.agvs_when_stuck = false;
   });
@@ -190,7 +201,7 @@ Plan plan_turned_away(const SmallPlanner& planner, const Belief& belief) {
 }
 
 SmallPlanner model_of_grid_that_fails(const std::function<void(FvsConfig&)>& change) {
-  return SmallPlanner([&](PlannerConfig& c) {
+  return of_single_views([&](PlannerConfig& c) {
     c.agvs.scales = false;
     change(c.fvs);
   });

@@ -76,9 +76,11 @@ TEST(Gimbal, AViewIsWalkedByTheRaysOfAFixedCamera) {
 
 TEST(Gimbal, EverySamplerOffersEachOfItsViewsWithEachPitch) {
   const ViewPose current{Vec3(1, 2, 3), 0.3, 0.5};
-  const auto level = sample_agvs({}, current, 1.0);
-  const auto pitched = sample_agvs({}, current, 1.0, kPitches);
+  const AgvsConfig moves = {.current_pose = false};
+  const auto level = sample_agvs(moves, current, 1.0);
+  const auto pitched = sample_agvs(moves, current, 1.0, kPitches);
   EXPECT_EQ(pitched.size(), 3 * (level.size() + 1) - 1);  // only the current pose is left out
+  EXPECT_EQ(sample_agvs({}, current, 1.0, kPitches).size(), 3 * 81U);
   const auto has = [](const std::vector<ViewPose>& views, const ViewPose& view) {
     return std::any_of(views.begin(), views.end(),
                        [&](const ViewPose& v) { return is_same_view(v, view); });
@@ -93,7 +95,7 @@ TEST(Gimbal, EverySamplerOffersEachOfItsViewsWithEachPitch) {
   EXPECT_TRUE(has(pitched, {current.p_world_m, current.yaw_rad, -0.5}));
   EXPECT_EQ(sample_fvs({}, Vec3::Zero(), kPitches).size(), 3 * sample_fvs({}, Vec3::Zero()).size());
   // without a gimbal only 0 is offered, and nothing changes
-  const auto none = sample_agvs({}, {Vec3(1, 2, 3), 0.3}, 1.0, std::array{0.0});
+  const auto none = sample_agvs(moves, {Vec3(1, 2, 3), 0.3}, 1.0, std::array{0.0});
   ASSERT_EQ(none.size(), level.size());
   for (std::size_t i = 0; i < none.size(); ++i) EXPECT_EQ(none[i].yaw_rad, level[i].yaw_rad);
 }

@@ -14,23 +14,30 @@
 namespace gnbv {
 namespace {
 
-TEST(Agvs, OffersTheGridOfThePaperScaledWithRotationsAtScaleOneAlone) {
+TEST(Agvs, OffersTheGridOfThePaperScaledAndOfWhereItIsWhatTheSwitchesSay) {
   const ViewPose current{Vec3(1, 2, 3), 0.3};
   struct Case {
-    bool rotation_only;
+    AgvsConfig config;
     double scale;
-    std::size_t views;  // 3 x 3 x 3 positions, 3 yaws, less the current pose or position
+    int turns, stays;  // views here with another yaw, and with this one
   };
-  for (const auto& [rotation_only, scale, count] :
-       std::vector<Case>{{true, 1.0, 80}, {true, 1.5, 78}, {false, 1.0, 78}}) {
-    const auto views = sample_agvs({.rotation_only = rotation_only}, current, scale);
-    EXPECT_EQ(views.size(), count);
+  for (const auto& [config, scale, turns, stays] :
+       std::vector<Case>{{{}, 1.0, 2, 1},
+                         {{}, 1.5, 2, 0},
+                         {{.current_pose = false}, 1.0, 2, 0},
+                         {{.rotation_at_all_scales = false}, 1.0, 2, 1},
+                         {{.rotation_at_all_scales = false}, 1.5, 0, 0},
+                         {{.rotation_only = false}, 1.0, 0, 0}}) {
     double farthest_m = 0.0;
-    for (const ViewPose& view : views) {
+    int elsewhere = 0, turned = 0, stayed = 0;
+    for (const ViewPose& view : sample_agvs(config, current, scale)) {
       const double offset_m = (view.p_world_m - current.p_world_m).norm();
       farthest_m = std::max(farthest_m, offset_m);
-      EXPECT_FALSE(offset_m < 1e-9 && view.yaw_rad == current.yaw_rad);
+      ++(offset_m > 1e-9 ? elsewhere : is_same_view(view, current) ? stayed : turned);
     }
+    EXPECT_EQ(elsewhere, 26 * 3);  // 3 x 3 x 3 positions, 3 yaws
+    EXPECT_EQ(turned, turns);
+    EXPECT_EQ(stayed, stays);
     EXPECT_NEAR(farthest_m, scale * std::sqrt(3.0), 1e-12);
   }
 }
@@ -101,7 +108,7 @@ std::vector<Decision> at(const std::vector<Vec3>& positions_m) {
 }
 
 TEST(Agvs, ScaleGrowsWhenItGoesBackAndForth) {
-  const AgvsConfig config;  // four moves
+  const AgvsConfig config = {.repeated_by = RepeatedBy::places};  // four moves
   const Vec3 a(0, 0, 5);
   const Vec3 b(1, 0, 5);
   const auto scale = [&](const std::vector<Vec3>& positions_m) {
@@ -121,15 +128,21 @@ TEST(Fvs, StandsOnThreeLayersOfACylinderFacingItsAxis) {
   std::array<int, 3> by_layer = {0, 0, 0};
   for (const ViewPose& view : views) {
     const Vec3 offset = view.p_world_m - centroid;
-    EXPECT_NEAR(offset.head<2>().norm(), 3.5, 1e-12);
+    EXPECT_NEAR(offset.head<2>().norm(), 2.5, 1e-12);
     ++by_layer.at(static_cast<std::size_t>(std::lround(offset.z()) + 1));
     const Vec3 forward = T_world_body(view).linear().col(0);
     EXPECT_NEAR(forward.head<2>().dot(-offset.head<2>().normalized()), 1.0, 1e-12);
   }
   EXPECT_EQ(by_layer, (std::array<int, 3>{4, 4, 4}));
-  FvsConfig released;
-  released.views_per_layer = 8;
-  EXPECT_EQ(sample_fvs(released, centroid).size(), 24U);
+  // the authors come around to the first bearing again
+  FvsConfig authors;
+  authors.first_bearing_twice = true;
+  authors.views_per_layer = 8;
+  const auto theirs = sample_fvs(authors, centroid);
+  ASSERT_EQ(theirs.size(), 27U);
+  for (const std::size_t first : {0, 9, 18}) {
+    EXPECT_TRUE(is_same_view(theirs[first], theirs[first + 8]));
+  }
 }
 
 // What a view sees of the cluster it was sampled for.
@@ -193,18 +206,27 @@ TEST(Presets, DifferInTheirSwitchesAndInNothingElse) {
   PlannerConfig config;
   config.utility.alpha = 7.0;
   config.map.resolution_m = 0.3;
-  config.preset = "released";
-  set_preset_switches(config);
-  EXPECT_EQ(config.fvs.frontier.max_extent_m, 0.0);
-  EXPECT_EQ(config.fvs.views_per_layer, 8);
-  EXPECT_EQ(config.utility.hit_voxel, HitVoxel::excluded);
-  EXPECT_EQ(config.utility.alpha, 7.0);
-  EXPECT_EQ(config.map.resolution_m, 0.3);
-  config.preset = "paper";
-  set_preset_switches(config);
-  EXPECT_EQ(config.fvs.frontier.max_extent_m, 2.0);
-  EXPECT_EQ(config.fvs.views_per_layer, 4);
-  EXPECT_EQ(config.utility.hit_voxel, HitVoxel::counted);
+  struct Case {
+    const char* preset;
+    FvsMode mode;
+    int clusters, views_per_layer;
+    double radius_m;
+    HitVoxel hit_voxel;
+  };
+  for (const auto& [preset, mode, clusters, views_per_layer, radius_m, hit_voxel] :
+       std::vector<Case>{{"released", FvsMode::single, 1, 8, 3.5, HitVoxel::excluded},
+                         {"authors_2018", FvsMode::burst, 5, 8, 3.5, HitVoxel::excluded},
+                         {"paper", FvsMode::burst, 1, 4, 2.5, HitVoxel::counted}}) {
+    config.preset = preset;
+    set_preset_switches(config);
+    EXPECT_EQ(config.fvs.mode, mode) << preset;
+    EXPECT_EQ(config.fvs.clusters, clusters) << preset;
+    EXPECT_EQ(config.fvs.views_per_layer, views_per_layer) << preset;
+    EXPECT_EQ(config.fvs.radius_m, radius_m) << preset;
+    EXPECT_EQ(config.utility.hit_voxel, hit_voxel) << preset;
+    EXPECT_EQ(config.utility.alpha, 7.0);
+    EXPECT_EQ(config.map.resolution_m, 0.3);
+  }
 }
 
 }  // namespace

@@ -89,12 +89,28 @@ std::vector<Decision> back_and_forth(int views) {
   return decisions;
 }
 
-TEST(RepeatedMotion, EndsAMissionAfterTenMoves) {
-  EXPECT_EQ(end_of({}, {.decisions = back_and_forth(12)}), Termination::repeated_motion);
-  EXPECT_EQ(end_of({}, {.decisions = back_and_forth(11)}), std::nullopt);
-  TerminationConfig off;
-  off.repeated_moves = 0;
-  EXPECT_EQ(end_of(off, {.decisions = back_and_forth(12)}), std::nullopt);
+TEST(RepeatedMotion, BetweenTwoPlacesEndsAMissionAfterTenMoves) {
+  TerminationConfig config = {.repeated_by = RepeatedBy::places};
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(12)}), Termination::repeated_motion);
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(11)}), std::nullopt);
+  config.repeated_moves = 0;
+  EXPECT_EQ(end_of(config, {.decisions = back_and_forth(12)}), std::nullopt);
+}
+
+TEST(RepeatedMotion, IsOfUtilitiesAtLagTwoWhereThereAreAny) {
+  const auto end = [](const std::vector<double>& utilities, Sampler sampler = Sampler::agvs) {
+    History history;
+    for (const double utility : utilities) {
+      history.decisions.push_back({.view = {}, .sampler = sampler, .score = {.value = utility}});
+    }
+    return end_of({.repeated_moves = 4}, history);
+  };
+  EXPECT_EQ(end({9, 1, 2, 1, 2}), Termination::repeated_motion);
+  EXPECT_EQ(end({9, 1, 2, 1, 2}, Sampler::fvs), Termination::repeated_motion);
+  EXPECT_EQ(end({1, 2, 1, 2}), std::nullopt) << "the authors ask for more views than the window";
+  EXPECT_EQ(end({9, 1, 2, 1, 3}), std::nullopt);
+  EXPECT_EQ(end({9, 8, 2, 1, 2}), std::nullopt);
+  EXPECT_EQ(end({0, 0, 0, 0, 0, 0}, Sampler::route), std::nullopt) << "of a route none has one";
 }
 
 TEST(MaxIterations, IsTheFirstRuleAndNoPlannerSwitchesItOff) {
@@ -112,6 +128,7 @@ TEST(EndAfterView, TheFirstRuleNamesTheEndAndAPlannerMaySwitchRulesOff) {
   config.min_new_voxels_per_m = 1.0;
   config.max_views_without_new_points = 1;
   config.repeated_moves = 2;
+  config.repeated_by = RepeatedBy::places;
   EndRules rules;
   const auto end = [&](double entropy_nat, std::size_t voxels, std::size_t points, int views = 3) {
     return end_of(config,
@@ -148,6 +165,18 @@ TEST(NextDecision, HandsOutTheViewsOfAPlanInOrderBeforeItAsksForAnother) {
     EXPECT_EQ(plans, 1);
   }
   EXPECT_EQ(std::get<Termination>(next()), Termination::route_flown);
+}
+
+TEST(EndAfterView, MayHaveToWaitForTheEndOfAPlan) {
+  History history;
+  history.decisions = back_and_forth(11);
+  history.ahead = back_and_forth(2);
+  TerminationConfig config = {.max_iterations = 10};
+  EXPECT_EQ(end_of(config, history), Termination::max_iterations);
+  config.within_plans = false;
+  EXPECT_EQ(end_of(config, history), std::nullopt);
+  history.ahead.clear();
+  EXPECT_EQ(end_of(config, history), Termination::max_iterations);
 }
 
 TEST(NextDecision, ALegThatPassesTheLimitIsTooFarNotOneThatEndsOnIt) {

@@ -92,6 +92,8 @@ def test_compare_loses_no_more_than_the_ceiling_of_a_mesh_that_is_gone(run, tmp_
      'planner.utilty.name=isler', ["'best'", "'relased'", 'planner.utilty']),
     ('compare smoke --utilities a,b --baseline c',
      ["'c': no method of this comparison; it has: a, b"]),
+    ('compare smoke --utilities proposed --variant score.reference=area_samples',
+     ['score.reference', 'unlike voxels']),
     ('compare smoke --utilities proposed', []),
     ('compare smoke --utilities proposed,isler --seeds 0', []),
     ('compare --utilities proposed,isler', []),
@@ -107,13 +109,14 @@ def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     table = f'table smoke --set name=lab_model --seeds 2 {FEW} --out . --format'
     found = run(f'{table} json').json['rows']
     assert [f'{row["utility"]}: {row["row"]}' for row in found] == [
-        'Proposed: ours', 'Proposed: paper', 'Tour: ours', 'Oracle, few views: ours',
-        'Oracle, few metres: ours', 'Profile: ours', 'Ceiling: physical', 'Ceiling: leaf filter']
+        'Proposed: ours', 'Proposed: paper', 'Proposed: ours below', 'Tour: ours',
+        'Oracle, few views: ours', 'Oracle, few metres: ours', 'Profile: ours',
+        'Ceiling: physical', 'Ceiling: leaf filter']
     assert found[0]['runs'] == 2 and found[0]['iterations'] == 4
     assert found[0]['time_min'] and found[0]['share_of_ceiling']
     assert found[1]['entropy_reduction'] == 30140
-    assert [found[i]['metres_to_90_runs'] is None for i in (0, 1, 2, 3, 4)] == [
-        False, True, False, False, False]
+    assert [found[i]['metres_to_90_runs'] is None for i in range(6)] == [
+        False, True, True, False, False, False]
     # every other form has the same rows and the command that repeats it
     for form in ('terminal', 'markdown', 'csv', 'latex'):
         run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',

@@ -165,6 +165,18 @@ def test_run_repeats_what_lint_warns_of_and_no_more(run):
     assert said.count('low.obj: ') == lint.count('\nwarning')
 
 
+def test_surface_that_is_cleared_through_is_said_once_by_run_and_lint(run):
+    run('asset smoke -o box.obj')
+    deep = '--set cameras.0.return_max_m=3'
+    words = 'as planner.map.no_return is free: rgbd from 3 to 5 m'
+    assert run(f'run smoke {ONE} {deep} --out deep').err.count(words) == 1
+    assert run(f'run smoke {ONE} {deep} --mesh box.obj --out box').err.count(words) == 1
+    assert run(f'lint box.obj --scenario smoke {deep}').out.count(words) == 1
+    unknown = f'{deep} --set planner.map.no_return=unknown'
+    assert 'no_return' not in run(f'run smoke {ONE} {unknown} --out unknown').err
+    assert 'no_return' not in run(f'lint box.obj --scenario smoke {unknown}').out
+
+
 def test_lint_takes_several_meshes_and_ends_as_the_worst(run, tmp_path):
     run('asset smoke -o good.obj')
     (tmp_path / 'nan.obj').write_text(NAN)

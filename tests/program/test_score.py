@@ -116,6 +116,29 @@ def test_of_the_runs_cloud_is_the_runs(run, score, flown, copy):
     assert high['floor_z_m'] == 1.0 and high['coverage'] != cloud['coverage']
 
 
+def test_of_area_samples_is_named_and_changes_coverage_alone(run, score, flown, copy, tmp_path,
+                                                                request):
+    sets = '--set score.reference=area_samples --set score.area_samples=3000'
+    run(f'run smoke --quiet {sets} --out sampled', '3,000 points drawn by area')
+    ours, theirs = summary(tmp_path / 'sampled'), summary(flown)
+    assert ours['result_sha256'] == theirs['result_sha256']
+    assert ours['coverage']['reference'] == 'area_samples'
+    assert ours['coverage']['area_samples'] == 3000
+    assert theirs['coverage']['reference'] == 'outside'
+    assert ours['coverage']['final']['0.05'] < theirs['coverage']['final']['0.05']
+    for same in ('final_raw_reference', 'profile_raw_reference'):
+        assert ours['coverage'][same] == theirs['coverage'][same]
+    for same in ('precision_recall', 'chamfer_m', 'density'):
+        assert ours[same] == theirs[same]
+    # any run's cloud can be scored so, and the score of the run is the same again
+    cloud = score(f'run/cloud.ply --scenario smoke {sets} --json').json
+    assert cloud['coverage']['final'] == ours['coverage']['final']
+    assert score('sampled --json').json['coverage'] == ours['coverage']
+    score('sampled', 'area samples ', 'profile, area samples', 'one of 3,000 points')
+    run(f'check sampled --against {request.config.rootpath}/bench/baselines/smoke.json',
+        "reference outside, the run's is area_samples 3000", code=2)
+
+
 def test_lines_fit_the_terminal(run, cache, copy):
     said = run('score run', 'points against smoke', 'Points in a voxel of 0.2 m', COLUMNS='80',
                **cache).out

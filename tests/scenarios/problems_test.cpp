@@ -131,6 +131,20 @@ TEST(Problems, OfValuesThatDoNotGoTogether) {
                     HasSubstr("none.obj': there is no such file")));
 }
 
+TEST(ClearingNote, IsOfCamerasWhoseReturnsEndBeforeWhatTheyClear) {
+  const auto note_of = [](const std::vector<std::string>& sets) {
+    return clearing_note(load_scenario("aircraft", sets));
+  };
+  EXPECT_EQ(note_of({}), "");
+  EXPECT_EQ(note_of({"cameras.0.return_max_m=5", "planner.map.no_return=unknown"}), "");
+  EXPECT_EQ(note_of({"cameras.0.return_max_m=8"}), "");
+  EXPECT_EQ(note_of({"cameras.1.return_max_m=5"}),
+            "surface too deep for a return is cleared through, as planner.map.no_return is free: "
+            "rgbd_up from 5 to 8 m");
+  EXPECT_TRUE(note_of({"planner.preset=authors_2018"})
+                  .ends_with("rgbd_down from 5 to 8 m, rgbd_up from 5 to 8 m"));
+}
+
 TEST(Problems, OfABuiltinScenarioAreNone) {
   for (const std::string& name : builtin_scenario_names()) {
     EXPECT_TRUE(problems(load_scenario(name, {})).empty()) << name;

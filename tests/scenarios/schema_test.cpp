@@ -85,7 +85,9 @@ TEST(Schema, EveryKeyCanBeSet) {
     if (leaf.path == "obstacles.0.file.path") continue;  // a box excludes it
     // one alone leaves a vehicle that cannot hover: Layouts has them
     if (leaf.path.starts_with("vehicle.airframe.rotors")) continue;
-    const std::string value = other_value(leaf, path);
+    // the authors' first start lies below the floor of navigation
+    const std::string value =
+        leaf.path == "start.preset" ? "authors_south" : other_value(leaf, path);
     std::vector<std::pair<std::string, std::string>> after;
     ASSERT_NO_THROW(
         after = scenario_values(load_scenario(path, {fmt::format("{}={}", leaf.path, value)})))
@@ -95,7 +97,8 @@ TEST(Schema, EveryKeyCanBeSet) {
       EXPECT_EQ(after[i].first, before[i].first);
       if (before[i].first == leaf.path) {
         EXPECT_NE(after[i].second, before[i].second) << leaf.path << '=' << value;
-      } else if (!leaf.path.ends_with("preset")) {  // which is there to set its neighbours
+      } else if (!leaf.path.ends_with("preset") && leaf.path != "planner.fvs.mode") {
+        // which are there to set their neighbours
         EXPECT_EQ(after[i].second, before[i].second) << leaf.path << '=' << value;
       }
     }

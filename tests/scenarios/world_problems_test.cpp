@@ -64,10 +64,14 @@ TEST(WorldProblems, AStartInANoFlyBoxIsRefused) {
               HasSubstr("s.yaml:4: no_fly.0.max: value '[1, 3, 6]': min x = 1 has to be below"));
 }
 
-TEST(WorldProblems, TheRegionHasSomethingOfTheWorkspaceInIt) {
-  EXPECT_EQ(complaint(kMinimal + "score: {region_m: {min: [0, 0, 0], max: [5, 5, 5]}}\n"), "");
-  EXPECT_THAT(complaint(kMinimal + "score: {region_m: {min: [30, 0, 0], max: [35, 5, 5]}}\n"),
-              AllOf(StartsWith("s.yaml:2: score.region_m"), HasSubstr("nothing of the workspace")));
+TEST(WorldProblems, BoxesOfWhatCountsHaveSomethingOfTheWorkspaceInThem) {
+  for (const std::string key : {"score.region_m", "planner.object_bounds_m"}) {
+    EXPECT_EQ(complaint(kMinimal, {key + "={min: [0, 0, 0], max: [5, 5, 5]}"}), "");
+    EXPECT_THAT(complaint(kMinimal, {key + "={min: [30, 0, 0], max: [35, 5, 5]}"}),
+                AllOf(HasSubstr(key), HasSubstr(key + " has nothing of the workspace in it")));
+    EXPECT_THAT(complaint(kMinimal, {key + "={min: [5, 0, 0], max: [0, 5, 5]}"}),
+                AllOf(HasSubstr(key), HasSubstr("min x = 5 has to be below max x = 0")));
+  }
 }
 
 TEST(WorldProblems, TheResolvedScenarioNamesThemAllAndIsReadBack) {

@@ -167,5 +167,32 @@ TEST(DepthCapture, EqualsBruteForceAtEveryPixel) {
   EXPECT_LT(undecided, 600);
 }
 
+DepthFrame wall_seen(double wall_m, double return_max_m, double range_max_m) {
+  TriangleMesh wall;
+  add_wall(wall, wall_m, -100, 100, -100, 100);
+  CameraModel camera = camera_with(0.0, 0.3, range_max_m);
+  camera.config.return_max_m = return_max_m;
+  return capture_depth(RayScene(world_of(wall, false)), camera, 0, Isometry::Identity(), {}, 1);
+}
+
+TEST(DepthCapture, DeeperThanReturnMaxNothingReturns) {
+  for (const auto& [wall_m, return_max_m, range_max_m, returns] :
+       {std::tuple(4.0, 5.0, 8.0, true), std::tuple(6.0, 5.0, 8.0, false),
+        std::tuple(4.999, 5.0, 8.0, true),  // a plane: in the corners 5.87 m away
+        std::tuple(5.001, 5.0, 8.0, false), std::tuple(6.0, 0.0, 8.0, true),
+        std::tuple(7.9, 9.0, 8.0, true), std::tuple(8.1, 9.0, 8.0, false)}) {
+    EXPECT_TRUE(all_of_kind(wall_seen(wall_m, return_max_m, range_max_m),
+                            returns ? is_depth : is_no_return))
+        << wall_m << " " << return_max_m << " " << range_max_m;
+  }
+}
+
+TEST(DepthCapture, WhatLiesExactlyAtReturnMaxReturns) {
+  const float read_m = wall_seen(5.0, 0.0, 8.0).depth_m[0];
+  ASSERT_NEAR(read_m, 5.0, 1e-5);
+  EXPECT_EQ(wall_seen(5.0, read_m, 8.0).depth_m[0], read_m);
+  EXPECT_EQ(wall_seen(5.0, std::nextafter(read_m, 0.0F), 8.0).depth_m[0], kNoReturn);
+}
+
 }  // namespace
 }  // namespace gnbv

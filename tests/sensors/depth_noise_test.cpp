@@ -165,6 +165,29 @@ TEST(DepthNoise, NguyenDisplacesAnEdgeByItsLateralDeviation) {
   }
 }
 
+TEST(DepthNoise, ReturnMaxEndsReadingsAndChangesNone) {
+  // of a wall there, half of the pixels read more
+  const RayScene scene(world_of(slanted_wall(5.0, 0.0), false));
+  for (const DepthNoise model : kModels) {
+    CameraConfig config = narrow_camera(model);
+    const auto depths = [&] {
+      const CameraModel camera = make_camera_model(config);
+      return capture_depth(scene, camera, 0, Isometry::Identity(), {3, 8}, 2).depth_m;
+    };
+    const std::vector<float> far_m = depths();
+    config.return_max_m = 5.0;
+    const std::vector<float> near_m = depths();
+    std::size_t ended = 0;
+    for (std::size_t i = 0; i < far_m.size(); ++i) {
+      ended += far_m[i] > 5.0F ? 1 : 0;
+      ASSERT_EQ(near_m[i], far_m[i] > 5.0F ? kNoReturn : far_m[i]) << i;
+    }
+    // four standard deviations of the binomial law
+    const auto all = static_cast<double>(far_m.size());
+    EXPECT_NEAR(static_cast<double>(ended), 0.5 * all, 2.0 * std::sqrt(all));
+  }
+}
+
 TEST(DepthNoise, IsKeyedBySeedTickAndCameraNotByThreads) {
   CameraConfig config;
   config.width_px = 161;  // no multiple of 4

@@ -82,10 +82,13 @@ Axis percent_axis(double low, double high) {
   return axis;
 }
 
-/// With its label; an axis that does not begin at 0 says so.
-Axis coverage_axis(Axis axis, double size_m) {
-  axis.label =
-      fmt::format("coverage at {} m (%){}", size_name(size_m), axis.low > 0.0 ? ", axis cut" : "");
+/// With its label; an axis that does not begin at 0 says so, as does one that no group's surface
+/// from outside is on.
+Axis coverage_axis(Axis axis, double size_m, std::span<const RunGroup> groups) {
+  const bool of_samples = std::ranges::all_of(
+      groups, [](const RunGroup& group) { return group.runs.front()->figures->area_samples > 0; });
+  axis.label = fmt::format("coverage{} at {} m (%){}", of_samples ? " of area samples" : "",
+                           size_name(size_m), axis.low > 0.0 ? ", axis cut" : "");
   return axis;
 }
 
@@ -123,7 +126,7 @@ Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double s
   const auto [low, high] = range_from(panel.series, 0.0);
   panel.x = axis_from(effort == Effort::views ? "views (0: the profile alone)" : words.label, 0.0,
                       std::max(kBeyond * longest_of(drawn), 1e-6));
-  panel.y = coverage_axis(percent_axis(low, high), size_m);
+  panel.y = coverage_axis(percent_axis(low, high), size_m, groups);
   figure.panels = {std::move(panel)};
   return figure;
 }
@@ -153,7 +156,7 @@ std::optional<Figure> coverage_end_figure(std::span<const RunGroup> groups, Effo
   panel.x =
       axis_from(fmt::format("last {} % of {}", kEndPercent, words.end), from, kBeyond * longest);
   // within a percent a curve is flat: it is not to look steep
-  panel.y = coverage_axis(axis_around("", std::min(low, high - 1.0), high), size_m);
+  panel.y = coverage_axis(axis_around("", std::min(low, high - 1.0), high), size_m, groups);
   std::vector<Series> levels = coverage_levels(groups, size_m);
   // a key to a line that is not there would be a riddle
   std::erase_if(levels, [&](const Series& level) {

@@ -8,6 +8,7 @@
 #include "bench/compare/paper_table.hpp"
 #include "planner/planners.hpp"
 #include "scenarios/load.hpp"
+#include "scenarios/problems.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/gnbv/commands.hpp"
@@ -57,10 +58,11 @@ void set_views(const std::string& file, RunOptions& options) {
   options.scenario.views = file == "-" ? "" : file;
 }
 
-/// What a mission flies in spite of: keys that do nothing, and what lint warns of in a mesh. What
-/// its reader left out is said when the mission loads it.
+/// What a mission flies in spite of: keys that do nothing, surface that is cleared through, and
+/// what lint warns of in a mesh. What its reader left out is said when the mission loads it.
 void say_doubts(const Scenario& scenario, const std::vector<std::string>& unused_notes) {
   for (const std::string& note : unused_notes) say(note);
+  if (const std::string note = clearing_note(scenario); !note.empty()) say(note);
   for (const std::string& warning : mesh_warnings(scenario, thread_count(0))) say(warning);
 }
 

@@ -50,7 +50,8 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
 }
 
 void add_preset_option(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("--preset", options.preset, "paper, or released: the authors' own code");
+  command.add_option("--preset", options.preset,
+                     "paper; or the authors' code: released (2017), authors_2018");
 }
 
 CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,

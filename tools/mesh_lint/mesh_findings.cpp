@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/problems.hpp"
 #include "sim/core/text.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 #include "tools/mission/load_world.hpp"
@@ -264,6 +265,9 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
   out.push_back(ground_finding(report, scenario, advice));
   out.push_back(floor_finding(report, scenario, advice));
   add_flight_findings(advice, bounds_auto, out);
+  if (const std::string note = clearing_note(scenario); !note.empty()) {
+    out.push_back({"returns", Severity::warning, note, flag("planner.map.no_return=unknown")});
+  }
   out.push_back(vertices_finding(report));
   add_face_findings(report, out);
   add_view_findings(report, out);

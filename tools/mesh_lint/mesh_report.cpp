@@ -33,7 +33,8 @@ void add_warnings(const Scenario& scenario, const MeshFileConfig& file, const st
   alone.structure.files.clear();
   const MeshReport report = report_on_mesh(alone, false, threads);
   for (const Finding& finding : report.findings) {
-    if (finding.severity < Severity::warning || finding.check == "file") continue;
+    const bool is_of_mesh = finding.check != "file" && finding.check != "returns";
+    if (finding.severity < Severity::warning || !is_of_mesh) continue;
     std::string fix = finding.fix.empty() ? "" : "; fix: " + finding.fix;
     for (std::size_t at = fix.find(kAlone); at != std::string::npos;
          at = fix.find(kAlone, at + section.size())) {

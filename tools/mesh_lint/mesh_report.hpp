@@ -62,8 +62,8 @@ std::string terminal_text(const MeshReport& report);
 /// The same for programs.
 std::string json_text(const MeshReport& report);
 
-/// What lint warns of in each mesh file of the structure, a line each, with the keys of this
-/// scenario that put it right.
+/// What lint warns of, beside what the reader and the scenario do, in each mesh file of the
+/// structure, a line each, with the keys of this scenario that put it right.
 std::vector<std::string> mesh_warnings(const Scenario& scenario, int threads);
 
 }  // namespace gnbv

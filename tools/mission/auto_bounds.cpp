@@ -39,7 +39,7 @@ double steep_tan(double rad) {
 /// What is before a camera that looks north, its yaw left aside, at any pitch of its gimbal.
 struct NorthernView {
   explicit NorthernView(const CameraConfig& camera)
-      : range_m(camera.range_max_m),
+      : range_m(return_end_m(camera)),
         tan_side(std::tan(0.5 * camera.fov_x_rad)),
         tan_up(steep_tan(0.5 * camera.fov_y_rad -
                          (camera.gimbal ? camera.gimbal->min_rad : camera.pitch_rad))),
@@ -111,7 +111,7 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
 double flight_margin_m(const Scenario& scenario) {
   double range_m = 0.0;
   for (const CameraConfig& camera : scenario.cameras) {
-    range_m = std::max(range_m, camera.range_max_m);
+    range_m = std::max(range_m, return_end_m(camera));
   }
   return std::max(kShareOfRange * range_m,
                   scenario.planner.validity.collision_radius_m + kClearance_m);
@@ -143,6 +143,7 @@ Scenario with_bounds_around(const Scenario& scenario, const StructureExtent& str
     if (given.position) box.extend(scenario.start.pose.p_world_m);
     out.workspace_m = rounded(box, scenario.planner.map.resolution_m);
   }
+  if (!given.object_bounds) out.planner.object_bounds_m = kEverywhere_m;
   if (!given.position) out.start.pose.p_world_m = start_on_south_face(out, structure);
   if (!given.yaw) {
     const Vec3 to_m = structure_m.center() - out.start.pose.p_world_m;

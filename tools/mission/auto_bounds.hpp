@@ -26,20 +26,22 @@ StructureExtent extent_of(const TriangleMesh& structure);
 /// What the user said, which is left alone.
 struct GivenBounds {
   bool workspace = false;
+  bool object_bounds = false;
   bool position = false;
   bool yaw = false;
 };
 
-/// The scenario with its workspace laid around the structure, wherever that is, and its start
-/// moved there. The workspace is the structure's box, and a start that is given, grown by the
-/// margin to the sides and above (the start only as far as it needs), its faces on multiples of
-/// the map's resolution. Its floor is the ground, z = 0; the structure's lowest point where it
-/// sinks below; and the margin below its lowest point where it floats higher than that, or where
-/// there is no ground. The top is high enough to fly at z_min_m, whatever the structure's height.
-/// The start is on the workspace's south face, looking north, where most of the surface is in
-/// front of a camera and within its range, near the middle of equals, and no obstacle and no no_fly
-/// box is within the collision radius, as far as such a place is found; its jitter stays. What
-/// comes of it may not be flyable: ask problems().
+/// The scenario with its workspace laid around the structure, wherever that is, its start moved
+/// there and all of the workspace counted (PlannerConfig::object_bounds_m). The workspace is the
+/// structure's box, and a start that is given, grown by the margin to the sides and above (the
+/// start only as far as it needs), its faces on multiples of the map's resolution. Its floor is the
+/// ground, z = 0; the structure's lowest point where it sinks below; and the margin below its
+/// lowest point where it floats higher than that, or where there is no ground. The top is high
+/// enough to fly at z_min_m, whatever the structure's height. The start is on the workspace's south
+/// face, looking north, where most of the surface is in front of a camera and within its range,
+/// near the middle of equals, and no obstacle and no no_fly box is within the collision radius, as
+/// far as such a place is found; its jitter stays. What comes of it may not be flyable: ask
+/// problems().
 Scenario with_bounds_around(const Scenario& scenario, const StructureExtent& structure,
                             const GivenBounds& given = {});
 

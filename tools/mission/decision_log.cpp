@@ -9,41 +9,41 @@
 namespace gnbv {
 namespace {
 
-void add_frontiers(const FrontierConfig& frontier, const Belief& belief, const Plan& plan,
-                   FrontierMarks& marks, BelievedVoxels& voxels) {
-  std::vector<VoxelIndex> all;
-  for (const FrontierCluster& cluster :
-       find_frontiers(frontier, belief.grid, belief.cloud, marks)) {
-    all.insert(all.end(), cluster.voxels.begin(), cluster.voxels.end());
-  }
-  const int chosen = plan.chosen.empty() ? -1 : plan.candidates[plan.chosen.front()].cluster;
-  if (chosen >= 0) {
-    voxels.looked_at = runs_of(plan.clusters[static_cast<std::size_t>(chosen)].voxels);
-  }
-  std::sort(all.begin(), all.end());
-  voxels.frontier = runs_of(all);
+/// Of all of them, each once.
+VoxelRuns runs_of_all(std::vector<VoxelIndex> voxels) {
+  std::ranges::sort(voxels);
+  voxels.erase(std::ranges::unique(voxels).begin(), voxels.end());
+  return runs_of(voxels);
+}
+
+void append(const std::vector<VoxelIndex>& more, std::vector<VoxelIndex>& all) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-BelievedVoxels believed_voxels(const PlannerModel& model, const FrontierConfig& frontier,
-                               const Belief& belief, const Plan& plan, FrontierMarks& marks) {
+BelievedVoxels believed_voxels(const PlannerModel& model, const Belief& belief, const Plan& plan) {
   GNBV_CHECK(plan.has_view(), "nothing was chosen");
-  const ViewPose& view = plan.next().view;
-  const VoxelsInSight seen =
-      voxels_in_sight(belief.grid, model.rays_at(view.gimbal_pitch_rad), view);
-  BelievedVoxels voxels{.unknown = runs_of(seen.unknown), .predicted = runs_of(seen.predicted)};
-  const bool asked_fvs = std::any_of(plan.candidates.begin(), plan.candidates.end(),
-                                     [](const Candidate& c) { return c.cluster >= 0; });
-  if (asked_fvs) add_frontiers(frontier, belief, plan, marks, voxels);
-  return voxels;
+  VoxelsInSight seen;
+  for (const Decision& next : plan.views) {
+    const ViewRays& rays = model.rays_at(next.view.gimbal_pitch_rad);
+    const VoxelsInSight more = voxels_in_sight(belief.grid, rays, next.view);
+    append(more.unknown, seen.unknown);
+    append(more.predicted, seen.predicted);
+  }
+  std::vector<VoxelIndex> looked_at;
+  for (std::size_t i = 0; i < plan.clusters.size(); ++i) {
+    if (plan.looks_at(static_cast<int>(i))) append(plan.clusters[i].voxels, looked_at);
+  }
+  return {.unknown = runs_of_all(std::move(seen.unknown)),
+          .predicted = runs_of_all(std::move(seen.predicted)),
+          .frontier = runs_of(plan.frontier),
+          .looked_at = runs_of_all(std::move(looked_at))};
 }
 
 DecisionLog::DecisionLog(const Scenario& scenario, const std::filesystem::path& folder,
                          std::size_t first_iteration)
     : model_(planner_model(scenario)),
-      frontier_(scenario.planner.fvs.frontier),
-      marks_(GridGeometry(scenario.workspace_m, scenario.planner.map.resolution_m).voxel_count()),
       candidates_(folder, first_iteration),
       beliefs_(folder, first_iteration) {}
 
@@ -51,7 +51,7 @@ void DecisionLog::on_plan(std::size_t iteration, const Plan& plan) {
   candidates_.write(iteration, plan);
   GNBV_CHECK(belief_ != nullptr, "a decision before the first view");
   if (!plan.has_view() || plan.candidates.empty()) return;
-  beliefs_.write(iteration, believed_voxels(model_, frontier_, *belief_, plan, marks_));
+  beliefs_.write(iteration, believed_voxels(model_, *belief_, plan));
 }
 
 void DecisionLog::finish() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "planner/core/belief.hpp"
-#include "planner/map/frontiers.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/run/beliefs_jsonl.hpp"
@@ -11,8 +10,7 @@
 namespace gnbv {
 
 /// The voxels of beliefs.jsonl of a decision that was made on that belief.
-BelievedVoxels believed_voxels(const PlannerModel& model, const FrontierConfig& frontier,
-                               const Belief& belief, const Plan& plan, FrontierMarks& marks);
+BelievedVoxels believed_voxels(const PlannerModel& model, const Belief& belief, const Plan& plan);
 
 /// Writes candidates.jsonl and beliefs.jsonl while the mission flies.
 class DecisionLog final : public MissionObserver {
@@ -27,8 +25,6 @@ class DecisionLog final : public MissionObserver {
 
  private:
   PlannerModel model_;
-  FrontierConfig frontier_;
-  FrontierMarks marks_;
   CandidatesFile candidates_;
   BeliefsFile beliefs_;
   const Belief* belief_ = nullptr;  // after the latest view: the mission's own

@@ -245,7 +245,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     cloud.region_m = scenario.score.region_m;
     MissionScore score =
         score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-    score.more = score_more_sizes(scenario.score.sizes_m, world, scene, scenario.planner.floor_z_m,
+    score.more = score_more_sizes(scenario.score.sizes_m, world, scene, reference_config(scenario),
                                   cloud, threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);

@@ -30,10 +30,13 @@ TriangleMesh load_obstacles(const Scenario& scenario, std::vector<std::string>& 
 
 TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& warnings) {
   const StructureConfig& structure = scenario.structure;
-  if (is_builtin(structure)) return make_builtin_structure(structure.builtin);
   TriangleMesh mesh;
+  if (is_builtin(structure)) mesh = make_builtin_structure(structure.builtin);
   if (!structure.file.path.empty()) add(load_mesh(structure.file, &warnings), mesh);
   for (const MeshFileConfig& file : structure.files) add(load_mesh(file, &warnings), mesh);
+  if (structure.offset_m != Vec3::Zero()) {
+    for (auto& p_m : mesh.vertices_m) p_m += structure.offset_m.cast<float>();
+  }
   return mesh;
 }
 

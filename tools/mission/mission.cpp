@@ -162,7 +162,7 @@ Plan make_plan(Mission& m) {
   Plan plan = is_replayed ? m.planner->replay(replay.subspan(iteration), m.out.belief, m.history,
                                               m.current, m.scratch)
                           : m.planner->next(m.out.belief, m.history, m.current, m.scratch);
-  if (!is_replayed) tell(m, &MissionObserver::on_plan, iteration, plan);
+  tell(m, is_replayed ? &MissionObserver::on_replayed : &MissionObserver::on_plan, iteration, plan);
   keep_record(m, iteration, plan);
   return plan;
 }

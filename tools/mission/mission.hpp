@@ -36,9 +36,10 @@ class MissionObserver {
   virtual void on_sensed(const SensedView&) {}
   /// A view that was taken, and what is believed after it, before the next is decided.
   virtual void on_view(const ViewRecord&, const Belief&) {}
-  /// A decision, before its views are flown; `iteration`: of the first of them. Not called for
-  /// replayed decisions.
+  /// A decision, before its views are flown; `iteration`: of the first of them.
   virtual void on_plan(std::size_t /*iteration*/, const Plan&) {}
+  /// Instead, a decision that is replayed: what of it was planned anew (Planner::replay).
+  virtual void on_replayed(std::size_t /*iteration*/, const Plan&) {}
 };
 
 /// What a mission is given beside scenario and world.

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "bench/limits/ceiling.hpp"
 #include "bench/score/cloud_metrics.hpp"
 #include "bench/score/coverage_curve.hpp"
 #include "sim/core/error.hpp"
@@ -17,7 +16,7 @@ namespace {
 class Meter {
  public:
   Meter(const SurfaceReference& reference, const RayScene& scene)
-      : meter_(reference.outside[0], kCoverageSizes_m[0]), scene_(scene) {}
+      : meter_(reference.counted[0], kCoverageSizes_m[0]), scene_(scene) {}
 
   double share_of(std::span<const Vec3f> cloud_world_m) {
     GNBV_CHECK(cloud_world_m.size() >= looked_at_, "a cloud shrank from {} to {} points",
@@ -40,22 +39,20 @@ class Meter {
 
 }  // namespace
 
-ReferenceConfig reference_config(const Scenario& scenario) {
-  return {.floor_z_m = scenario.planner.floor_z_m, .region_m = scenario.score.region_m};
-}
-
 SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
                               int threads) {
   const double floor_z_m = scenario.planner.floor_z_m;
   const ReferenceConfig config = reference_config(scenario);
   SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
-  if (reference.outside[0].empty()) {
+  if (reference.counted[0].empty()) {
     const std::string where =
         config.region_m.isApprox(ReferenceConfig{}.region_m) ? "" : " and in score.region_m";
     throw BadInput(fmt::format(
-        "{}: nothing to measure: above planner.floor_z_m = {} m{} there is no voxel with surface "
-        "enough that can be seen from outside; `gnbv lint` says more of a mesh",
-        structure_name(scenario.structure), floor_z_m, where));
+        "{}: nothing to measure: above planner.floor_z_m = {} m{} there is no {}; `gnbv lint` says "
+        "more of a mesh",
+        structure_name(scenario.structure), floor_z_m, where,
+        config.area_samples == 0 ? "voxel with surface enough that can be seen from outside"
+                                 : "surface that a sample could be drawn from"));
   }
   return reference;
 }
@@ -66,8 +63,8 @@ std::optional<double> run_ceiling(const Scenario& scenario, const World& world,
   const std::optional<Ceiling> ceiling =
       from == CeilingFrom::search ? find_ceiling(scenario, world, scene, start, threads)
                                   : known_ceiling(scenario, world, scene, start, threads);
-  if (!ceiling || ceiling->leaf_outside[0] <= 0.0) return std::nullopt;
-  return ceiling->leaf_outside[0];
+  if (!ceiling || ceiling->leaf_counted[0] <= 0.0) return std::nullopt;
+  return ceiling->leaf_counted[0];
 }
 
 std::function<double(const Belief&)> coverage_meter(const SurfaceReference& reference,

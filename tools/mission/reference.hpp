@@ -4,17 +4,15 @@
 #include <functional>
 #include <optional>
 
+#include "bench/limits/ceiling.hpp"
 #include "bench/score/surface_reference.hpp"
 #include "planner/core/belief.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace gnbv {
 
-/// What of the structure the scenario scores.
-ReferenceConfig reference_config(const Scenario& scenario);
-
 /// From the cache, or found. Throws BadInput when there is nothing to measure: no surface above the
-/// scenario's floor sees out.
+/// scenario's floor is counted.
 SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
                               int threads);
 
@@ -22,14 +20,14 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
 /// which may take longer than the mission.
 enum class CeilingFrom { cache, search };
 
-/// The coverage at 0.05 m that the cloud of this scenario can reach (Ceiling::leaf_outside), which
+/// The coverage at 0.05 m that the cloud of this scenario can reach (Ceiling::leaf_counted), which
 /// a run's effort is measured by. Nothing when the cache does not have it, or when there is nothing
 /// to reach.
 std::optional<double> run_ceiling(const Scenario& scenario, const World& world,
                                   const RayScene& scene, CeilingFrom from, int threads);
 
-/// Share of the voxels of 0.05 m with surface seen from outside that the believed cloud covers:
-/// what score_cloud() will call `final` at that size. Each call has to have all points of the one
+/// Share of the voxels of 0.05 m that coverage counts which the believed cloud covers: what
+/// score_cloud() will call `final` at that size. Each call has to have all points of the one
 /// before. Keeps reference and scene.
 std::function<double(const Belief&)> coverage_meter(const SurfaceReference& reference,
                                                     const RayScene& scene);

@@ -123,6 +123,9 @@ class ReplayWatch final : public MissionObserver {
     plan = made;
     inputs_.replay = recorded_;  // the mission reads it decision by decision
   }
+  void on_replayed(std::size_t iteration, const Plan& made) override {
+    if (iteration == request_.decision) plan = made;
+  }
 
   bool is_over = false;
   std::size_t views = 0;

@@ -32,7 +32,8 @@ struct ProfileStage {
 /// A decision, and the belief on which it was made.
 struct ReplayedDecision {
   Belief belief;
-  Plan plan;  // made again; empty for a mission that was handed its views (an oracle's)
+  Plan
+      plan;  // made again; without candidates for a mission that was handed its views (an oracle's)
 };
 
 /// What one flight is to bring back.
@@ -43,8 +44,9 @@ struct ReplayRequest {
   std::vector<std::size_t> waypoints = {};
   bool has_profile = false;
   std::optional<std::size_t> belief = {};    // what was believed after this view
-  std::optional<std::size_t> decision = {};  // that chose this view, not the start: none chose it
-  bool plans = true;  // the decision again; else its plan stays empty, and the belief before is all
+  std::optional<std::size_t> decision = {};  // whose first view this is, not the start
+  bool plans =
+      true;  // the decision again; else its plan is what a mission that is resumed makes of it
 };
 
 struct Replayed {

@@ -37,7 +37,7 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
       .floor_z_m = scenario.planner.floor_z_m,
       .reference_s = reference_s};
   scored.score.more =
-      score_more_sizes(scored.sizes_m, world, scene, scenario.planner.floor_z_m, cloud, threads);
+      score_more_sizes(scored.sizes_m, world, scene, reference_config(scenario), cloud, threads);
   scored.score_s = watch.elapsed_s() - reference_s;
   return scored;
 }

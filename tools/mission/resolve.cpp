@@ -35,7 +35,8 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
   if (!options.mesh.empty()) {
     if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
     const std::string path = yaml_in_quotes(fs::absolute(options.mesh).string());
-    add(overrides_of({"structure.files=[]", "structure.file.path=" + path}));
+    add(overrides_of(
+        {"structure.files=[]", "structure.offset_m=[0,0,0]", "structure.file.path=" + path}));
   }
   if (!options.utility.empty()) add(named_method(options.utility).overrides);
   if (!options.preset.empty()) add(overrides_of({"planner.preset=" + options.preset}));
@@ -48,6 +49,7 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
     bounds.fill = [&](Scenario& scenario, const auto& is_given) {
       scenario = with_bounds_around(scenario, extent(scenario),
                                     {.workspace = is_given("workspace_m"),
+                                     .object_bounds = is_given("planner.object_bounds_m"),
                                      .position = is_given("start.position_m"),
                                      .yaw = is_given("start.yaw_deg")});
     };

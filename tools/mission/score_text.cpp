@@ -53,10 +53,18 @@ std::string score_text(const Scored& scored, const std::string& name, bool is_ru
       return share_at(score, scored.sizes_m[i], shares, share);
     });
   };
-  coverage_row("seen from outside", score.final, &SizedCoverage::final);
+  const bool is_outside = score.area_samples == 0;
+  coverage_row(is_outside ? "seen from outside" : "area samples", score.final,
+               &SizedCoverage::final);
   coverage_row("all surface, also inner", score.final_raw, &SizedCoverage::final_raw);
-  if (is_run) coverage_row("profile, from outside", score.profile, &SizedCoverage::profile);
+  if (is_run) {
+    coverage_row(is_outside ? "profile, from outside" : "profile, area samples", score.profile,
+                 &SizedCoverage::profile);
+  }
   text += "a voxel counts with such surface of a tenth of its face\n";
+  if (!is_outside) {
+    text += fmt::format("area samples: voxels {}\n", reference_words(score.area_samples));
+  }
   text += "\n" + heading("Within", kScoreDistances_m);
   const auto& at = score.distances.at;
   text += percent_row("precision", at.size(), [&](std::size_t i) { return at[i].precision; });

@@ -33,7 +33,7 @@ void add_pose(const Isometry& T_world, Json& json) {
 }
 
 Json coverage_json(const SurfaceReference& reference, const Belief& belief) {
-  const auto shares = coverage_at_all_sizes(reference.outside, belief.cloud.points_world_m());
+  const auto shares = coverage_at_all_sizes(reference.counted, belief.cloud.points_world_m());
   return {{"0.05", shares[0]}, {"0.10", shares[1]}, {"0.50", shares[2]}};
 }
 

@@ -97,7 +97,7 @@ bool fits_16_bits(const VoxelSet& codes) {
 
 TrueVoxels true_voxels(const SurfaceReference& reference, std::size_t max_voxels) {
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
-    const VoxelSet& codes = reference.outside[size];
+    const VoxelSet& codes = reference.counted[size];
     if (codes.size() <= max_voxels && fits_16_bits(codes)) {
       return {.size_m = kCoverageSizes_m[size], .codes = codes};
     }

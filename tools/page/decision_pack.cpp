@@ -12,6 +12,7 @@
 #include "tools/run/beliefs_jsonl.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/run_files.hpp"
+#include "tools/scene/decision.hpp"
 
 namespace gnbv {
 namespace {
@@ -21,7 +22,8 @@ constexpr int kMostDoublings = 12;  // a cell of a kilometre, where voxels are o
 
 std::uint8_t kind_of(const Candidate& candidate, bool is_chosen) {
   if (candidate.rejected) return static_cast<std::uint8_t>(*candidate.rejected);
-  return is_chosen ? page::kChosenCandidate : page::kValidCandidate;
+  if (!is_chosen) return page::kValidCandidate;
+  return candidate.covers ? page::kKeptCandidate : page::kChosenCandidate;
 }
 
 /// Cells of 2^doublings voxels along each axis.
@@ -123,7 +125,7 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
       angles.push_back(static_cast<float>(c.view.gimbal_pitch_rad));
       kind.push_back(kind_of(c, plan.is_chosen(i)));
       if (c.rejected) continue;
-      for (const double term : {c.score.value, c.score.information, c.score.density,
+      for (const double term : {worth_of(c), c.score.information, c.score.density,
                                 c.score.prediction, c.score.distance}) {
         terms.push_back(static_cast<float>(term));
       }

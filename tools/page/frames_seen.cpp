@@ -62,7 +62,7 @@ void add_points(const RecordedFrame& frame, const FrameCamera& camera, const Fra
 double depth_range_m(const Scenario& scenario) {
   double range_m = 0.0;
   for (const CameraConfig& camera : scenario.cameras) {
-    range_m = std::max(range_m, camera.range_max_m);
+    range_m = std::max(range_m, return_end_m(camera));
   }
   return range_m;
 }

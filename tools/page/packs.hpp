@@ -28,7 +28,7 @@ struct RunBudget {
   std::size_t points = 0;
 };
 
-/// The voxels that coverage counts (SurfaceReference::outside), of one size.
+/// The voxels that coverage counts (SurfaceReference::counted), of one size.
 struct TrueVoxels {
   double size_m = 0.0;
   VoxelSet codes = {};

@@ -79,9 +79,12 @@ struct Views {
   std::vector<std::string> sampler = {};
   Array<std::uint32_t> candidates = {};
   Array<std::uint32_t> valid = {};
+  Array<std::uint32_t> plan_view =
+      {};  // its number in its plan: what tells of decisions tells of 1
   std::optional<Array<double, 16>> T_body_camera = {};  // a row a camera; where a gimbal turns some
 };
-GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, candidates, valid, T_body_camera)
+GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, candidates, valid, plan_view,
+                 T_body_camera)
 
 struct Figures {
   std::string termination = {};
@@ -144,6 +147,7 @@ struct PlanData {
 GNBV_PAGE_FIELDS(PlanData, poses, ranges)
 
 /// What became of a candidate that was not rejected; a Rejection's number otherwise.
+constexpr std::uint8_t kKeptCandidate = 253;  // a view of a burst
 constexpr std::uint8_t kValidCandidate = 254;
 constexpr std::uint8_t kChosenCandidate = 255;
 
@@ -152,10 +156,11 @@ struct CandidateData {
   Points points = {};
   Array<float, 2> angles = {};    // yaw, the gimbal's pitch
   Array<std::uint8_t> kind = {};  // see kValidCandidate
-  Array<float, 5> terms = {};     // of those that were not rejected: utility, information, density,
-                                  // prediction, distance factor
-  Array<std::uint32_t, 2> begins = {};  // (views + 1): the first one of each view's decision, and
-                                        // of its terms; and the ends
+  Array<float, 5> terms = {};     // of those that were not rejected: utility, or in a burst the
+                                  // points covered, information, density, prediction, distance
+                                  // factor
+  Array<std::uint32_t, 2> begins = {};  // (views + 1): the first one of the decision whose first
+                                        // view each is, and of its terms; and the ends
 };
 GNBV_PAGE_FIELDS(CandidateData, points, angles, kind, terms, begins)
 

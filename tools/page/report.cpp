@@ -90,17 +90,17 @@ TextTable table_of(const TableRuns& of) {
 
 std::vector<page::Table> tables_of(const std::vector<RunRecord>& records,
                                    const std::vector<std::optional<Ceiling>>& ceilings) {
-  std::map<std::pair<std::string, std::string>, std::size_t> numbers;
+  std::map<std::tuple<std::string, std::string, std::size_t>, std::size_t> numbers;
   std::vector<TableRuns> all;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::optional<RunFigures>& figures = records[i].figures;
     if (!figures || figures->curve.coverage.empty()) continue;
-    const auto [entry, is_new] =
-        numbers.try_emplace({figures->scenario, figures->structure}, all.size());
+    const auto [entry, is_new] = numbers.try_emplace(
+        {figures->scenario, figures->structure, figures->area_samples}, all.size());
     if (is_new) all.push_back({.records = {}, .ceiling = ceilings[i]});
     TableRuns& table = all[entry->second];
     table.records.push_back(&records[i]);
-    const auto share = [](const auto& of) { return of ? of->leaf_outside[0] : 0.0; };
+    const auto share = [](const auto& of) { return of ? of->leaf_counted[0] : 0.0; };
     if (share(table.ceiling) != share(ceilings[i])) table.ceiling.reset();
   }
   std::vector<page::Table> tables;
@@ -127,11 +127,11 @@ std::optional<Ceiling> ceiling_of(const RunRecord& record, const KnownStructure*
   if (structure != nullptr) {
     const auto known = known_ceiling(record.scenario, structure->world, structure->scene,
                                      start_pose(record.scenario, structure->scene), threads);
-    if (known && known->leaf_outside[0] > 0.0) return known;
+    if (known && known->leaf_counted[0] > 0.0) return known;
   }
   if (!record.figures || !record.figures->ceiling) return std::nullopt;
   Ceiling scored;
-  scored.leaf_outside[0] = *record.figures->ceiling;
+  scored.leaf_counted[0] = *record.figures->ceiling;
   scored.is_given = true;
   return scored;
 }
@@ -191,7 +191,7 @@ Report make_report(std::vector<RunRecord> records, const ReportOptions& options,
     const KnownStructure* const known = structures.of_run[i].known.get();
     ceilings.push_back(ceiling_of(records[i], known, options.threads));
     std::optional<RunFigures>& figures = records[i].figures;
-    if (figures && ceilings[i]) figures->ceiling = ceilings[i]->leaf_outside[0];
+    if (figures && ceilings[i]) figures->ceiling = ceilings[i]->leaf_counted[0];
   }
   page.tables = tables_of(records, ceilings);
   page.plots = plots_of(records, labels, arrays);

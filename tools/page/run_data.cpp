@@ -47,7 +47,8 @@ page::Views views_of(const RunRecord& record, page::Arrays& arrays) {
       .seconds = one([&](V v) { return v.time_s - begin_s; }),
       .metres = one([](V v) { return v.straight_m; }),
       .candidates = one([](V v) { return static_cast<std::uint32_t>(v.decision.candidates); }),
-      .valid = one([](V v) { return static_cast<std::uint32_t>(v.decision.valid); })};
+      .valid = one([](V v) { return static_cast<std::uint32_t>(v.decision.valid); }),
+      .plan_view = one([](V v) { return static_cast<std::uint32_t>(v.decision.plan_view); })};
   for (const ViewRecord& view : record.views) {
     views.sampler.emplace_back(traits_of(view.decision.sampler).name);
   }
@@ -92,8 +93,9 @@ std::vector<page::KeyFigure> key_figures(const RunRecord& record) {
   };
   if (const auto& f = record.figures) {
     const auto& covered = beside.coverage_percent;
-    add("Coverage, 0.05 m", 100.0 * f->coverage_final[0], 1, "%",
-        covered ? std::optional((*covered)[0]) : std::nullopt, is_doubtful(beside) ? "†" : "");
+    add(f->area_samples == 0 ? "Coverage, 0.05 m" : "Coverage of area samples, 0.05 m",
+        100.0 * f->coverage_final[0], 1, "%", covered ? std::optional((*covered)[0]) : std::nullopt,
+        is_doubtful(beside) ? "†" : "");
     if (f->ceiling) add("Of the ceiling", 100.0 * f->coverage_final[0] / *f->ceiling, 1, "%");
     add("F at 0.05 m", 100.0 * f->distances.at[1].f, 1, "%");
   }

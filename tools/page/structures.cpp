@@ -23,7 +23,7 @@ std::string structure_key(const Scenario& scenario) {
   only.structure = scenario.structure;
   only.terrain = scenario.terrain;
   only.obstacles = scenario.obstacles;
-  only.score.region_m = scenario.score.region_m;
+  only.score = what_a_ceiling_depends_on(scenario).score;
   only.planner.floor_z_m = scenario.planner.floor_z_m;
   return to_yaml(only);
 }

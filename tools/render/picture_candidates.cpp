@@ -96,15 +96,23 @@ std::string counts_by_sampler(const Plan& plan) {
   return words.empty() ? counted(plan.candidates.size(), "candidate") : words;
 }
 
+/// "view 3 of 7 of the burst planned at view 41, "; empty for a view that was decided alone.
+std::string of_burst(const ViewRecord& view, const Plan& plan) {
+  if (!plan.is_burst()) return "";
+  return fmt::format("view {} of {} of the burst planned at view {}, ", view.decision.plan_view,
+                     plan.chosen.size(), grouped(view.planned_at() + 1));
+}
+
 /// "0.871", "1,470"
 std::string in_three_digits(double value) {
   return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : grouped(value, 0);
 }
 
-/// A bar from the lowest utility to the highest; without one where all have one.
-LegendItem legend_of_valid(const ScoreRange& scores) {
+/// A bar from the lowest worth to the highest; without one where all have one.
+LegendItem legend_of_valid(const ScoreRange& scores, bool is_burst) {
   const std::string begin =
-      fmt::format("valid: {}, utility {}", grouped(scores.valid), in_three_digits(scores.low));
+      fmt::format("valid: {}, {} {}", grouped(scores.valid),
+                  is_burst ? "points covered" : "utility", in_three_digits(scores.low));
   if (scores.low == scores.high) return {begin, {score_colours().back()}, Mark::dot};
   return bar(score_colours(), begin, in_three_digits(scores.high) + ", highest",
              in_three_digits(0.5 * (scores.low + scores.high)));
@@ -155,7 +163,7 @@ std::vector<LegendItem> legend_of(const ReplayedDecision& decision, const Tally&
   };
   const std::size_t second = legend.size();
   if (const ScoreRange scores = scores_of(decision.plan); scores.valid > 0) {
-    legend.push_back(legend_of_valid(scores));
+    legend.push_back(legend_of_valid(scores, decision.plan.is_burst()));
   }
   add_seen(looks::kOccupied, Mark::square);
   add_seen(looks::kUnknown, Mark::square);
@@ -170,6 +178,8 @@ std::vector<LegendItem> legend_of(const ReplayedDecision& decision, const Tally&
   add_seen(looks::kRayFree, Mark::line);
   add_seen(looks::kRayUnknown, Mark::line);
   add_seen(looks::kRayHit, Mark::dot);
+  add_seen(looks::kCovered, Mark::dot);
+  add_seen(looks::kNotCovered, Mark::dot);
   if (second < third) legend[second].begins_row = true;
   legend[third].begins_row = true;
   return legend;
@@ -189,18 +199,27 @@ Picture draw_candidates(RunSource& run, const PictureOptions& options, const Ren
   const std::vector<Rgb> pale = {looks::kOccupied.rgb()};
   const SortedVoxels voxels = sort_voxels(grid);
   scene.surfaces.push_back(voxel_cubes(grid.geometry(), voxels.occupied, pale, 0.94));
+  // through them the points show that a burst covers
+  if (decision.plan.is_burst()) scene.surfaces.back().opacity = 0.3F;
   scene.surfaces.push_back(free_faces(grid, voxels.unknown, looks::kUnknown.rgb(), 0.35F));
   if (has_frontier_views(decision.plan)) {
-    add_frontiers(record.scenario.planner.fvs.frontier, decision, unit_m, view, panel);
+    add_frontiers(decision, unit_m, view, panel);
   }
+  add_numbers_of_views(decision.plan, record.views[iteration].decision, panel);
   add_chosen_view(record, run.world(), decision.belief, iteration, unit_m, scene);
   // farther, rays would smear their darkness over what they pass
   scene.hollow_m = grid.geometry().resolution_m();
   panel.lines = way_to_chosen(record, iteration);
   const Tally tally = tally_of(decision, view, unit_m);
-  picture.detail =
-      fmt::format("how view {} of {} (iteration {}) was chosen: from {}", grouped(iteration + 1),
-                  grouped(record.views.size()), iteration, counts_by_sampler(decision.plan));
+  picture.detail = fmt::format("how view {} of {} (iteration {}) was chosen: {}from {}",
+                               grouped(iteration + 1), grouped(record.views.size()), iteration,
+                               of_burst(record.views[iteration], decision.plan),
+                               counts_by_sampler(decision.plan));
+  if (decision.plan.is_burst()) {
+    const Covered covered = add_points_to_cover(record.scenario, decision, unit_m, scene);
+    picture.detail += fmt::format("; {} of {} are covered", grouped(covered.covered),
+                                  counted(covered.points, "point"));
+  }
   if (tally.unseen > 0) {
     picture.detail += fmt::format("; {} hidden or outside the picture", grouped(tally.unseen));
   }

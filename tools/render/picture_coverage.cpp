@@ -28,7 +28,7 @@ Judged judge(RunSource& run, const PictureOptions& options) {
   const SurfaceReference& reference = run.reference();
   const VoxelSet seen = voxels_of(points_by(run, options), kCoverageSizes_m.front());
   Judged judged;
-  const VoxelSet& surface = reference.outside.front();
+  const VoxelSet& surface = reference.counted.front();
   for (std::size_t i = 0; i < surface.size(); ++i) {
     judged.is_missed.push_back(!std::binary_search(seen.begin(), seen.end(), surface[i]));
     if (judged.is_missed.back()) judged.missed_world_m.push_back(reference.points_world_m[i]);
@@ -141,7 +141,7 @@ RenderView other_view(RunSource& run, const ViewAngles& angles, const RenderView
 }
 
 Picture draw_coverage(RunSource& run, const PictureOptions& options, const RenderView& view) {
-  const VoxelSet& surface = run.reference().outside.front();
+  const VoxelSet& surface = run.reference().counted.front();
   const double size_m = kCoverageSizes_m.front();
   const Judged judged = judge(run, options);
   const std::size_t missed = judged.missed_world_m.size();
@@ -169,8 +169,9 @@ Picture draw_coverage(RunSource& run, const PictureOptions& options, const Rende
                                        side_of(other), grouped(neither));
   const double share = static_cast<double>(surface.size() - missed) /
                        static_cast<double>(std::max<std::size_t>(1, surface.size()));
-  picture.detail = fmt::format("{:.1f} % of {} surface voxels of {} m covered", 100.0 * share,
-                               grouped(surface.size()), size_m);
+  picture.detail = fmt::format(
+      "{:.1f} % of {} {} voxels of {} m covered", 100.0 * share, grouped(surface.size()),
+      run.reference().area_samples == 0 ? "surface" : "area-sample", size_m);
   picture.detail += words_on_iteration(run.record(), options);
   if (factor > 1) {
     picture.detail += fmt::format("; drawn in voxels of {:.2f} m, colours mixed", factor * size_m);

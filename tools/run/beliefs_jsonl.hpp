@@ -27,13 +27,13 @@ std::size_t voxel_count(const VoxelRuns& runs);
 
 /// What a decision knew.
 struct BelievedVoxels {
-  VoxelRuns unknown = {};    // that the chosen view's rays cross (VoxelsInSight)
+  VoxelRuns unknown = {};    // that the rays of its views cross (VoxelsInSight)
   VoxelRuns predicted = {};  // that they meet first
-  VoxelRuns frontier = {};   // of all clusters, where any was sampled around
-  VoxelRuns looked_at = {};  // of them those of the cluster that the chosen view is of
+  VoxelRuns frontier = {};   // of all clusters that might be tried, where any was sampled around
+  VoxelRuns looked_at = {};  // of them those of the clusters that its views are of
 };
 
-/// One JSON object a line and decision: `iteration` of the view that it chose, and the four lists,
+/// One JSON object a line and decision: `iteration` of its first view, and the four lists,
 /// those without voxels left out: of each run the gap to the end of the one before (the first one's
 /// to voxel 0), then its length. Voxels count along x first, then y, then z, through the lattice of
 /// workspace and map.resolution_m. Written as candidates.jsonl is.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 #include "tools/run/mission_result.hpp"
 #include "tools/run/run_files.hpp"
 
@@ -36,11 +37,14 @@ Json json_of(std::size_t iteration, const Candidate& c, bool is_chosen) {
   } else {
     json["scale"] = c.scale;
   }
+  if (c.covers) json["covers"] = *c.covers;
   if (c.rejected) {
     json["rejected"] = name_of(*c.rejected);
     return json;
   }
-  for (const auto& [name, term] : kTerms) json[name] = c.score.*term;
+  if (!c.covers || is_chosen) {
+    for (const auto& [name, term] : kTerms) json[name] = c.score.*term;
+  }
   json["chosen"] = is_chosen;
   return json;
 }
@@ -51,14 +55,14 @@ Rejection rejection_of(const Json& json) {
   return static_cast<Rejection>(at - kRejectionNames.begin());
 }
 
-/// Of a candidate that was sampled around one; -1 without. A number that is no int is none at all.
-int cluster_of(const Json& json) {
-  if (!json.contains("cluster")) return -1;
-  const Json& cluster = json.at("cluster");
-  if (!cluster.is_number_unsigned() || cluster.get<std::uint64_t>() > 2'147'483'647) {
-    throw BadInput("cluster: is no number of one");
+/// What lines of bursts or of views around clusters have. A number that is no int is none at all.
+std::optional<int> count_of(const Json& json, const char* name) {
+  if (!json.contains(name)) return std::nullopt;
+  const Json& count = json.at(name);
+  if (!count.is_number_unsigned() || count.get<std::uint64_t>() > 2'147'483'647) {
+    throw BadInput(fmt::format("{}: is no whole number from 0 on", name));
   }
-  return cluster.get<int>();
+  return count.get<int>();
 }
 
 Candidate candidate_of(const Json& json) {
@@ -69,12 +73,14 @@ Candidate candidate_of(const Json& json) {
                        json.value("gimbal_pitch_rad", 0.0)},
               .sampler = *known,
               .scale = json.value("scale", 1.0),
-              .cluster = cluster_of(json),
-              .path_m = json.at("path_m")};
+              .cluster = count_of(json, "cluster").value_or(-1),
+              .path_m = json.at("path_m"),
+              .covers = count_of(json, "covers")};
   if (json.contains("rejected")) {
     c.rejected = rejection_of(json.at("rejected"));
     return c;
   }
+  if (c.covers && !json.contains("utility")) return c;
   for (const auto& [name, term] : kTerms) c.score.*term = json.at(name);
   return c;
 }
@@ -88,12 +94,13 @@ void add_candidate(const Json& json, Plan& plan) {
 /// up to it: then that run did not write them all.
 std::string candidates_before(std::size_t iteration, const fs::path& run) {
   const LinesBefore kept = lines_before(iteration, run, kCandidatesFile);
-  if (kept.last_iteration + 1 >= iteration) return kept.text;
+  if (kept.next_iteration >= iteration) return kept.text;
   const auto file = RunFiles(run).find(kCandidatesFile);
   if (!file) throw BadInput(fmt::format("{}: {}", (run / kCandidatesFile).string(), kNotWritten));
+  if (read_file(*file).empty()) return "";  // an oracle's mission samples none
   throw BadInput(
       fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
-                  file->string(), kept.last_iteration + 1, kNotWritten));
+                  file->string(), kept.next_iteration, kNotWritten));
 }
 
 }  // namespace

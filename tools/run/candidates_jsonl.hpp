@@ -9,10 +9,11 @@
 
 namespace gnbv {
 
-/// One JSON object a line and candidate, in the order they were sampled: `iteration` of the view
-/// that the decision chose, pose (m, rad; the gimbal's pitch unless it is 0), sampler, scale or
-/// cluster, path_m, then either `rejected` with its reason or `utility` with its terms; `chosen`
-/// marks the one that was flown to. Appended to candidates.jsonl.part, which finish() renames.
+/// One JSON object a line and candidate, in the order they were sampled: `iteration` of the first
+/// view that the decision chose, pose (m, rad; the gimbal's pitch unless it is 0), sampler, scale
+/// or cluster, path_m, in a burst `covers`, then either `rejected` with its reason or `utility`
+/// with its terms, which a burst has of its views alone; `chosen` marks the views, in the order in
+/// which they are flown. Appended to candidates.jsonl.part, which finish() renames.
 class CandidatesFile : public DecisionLines {
  public:
   /// `first_iteration`: decisions from here on will be written; what an interrupted run wrote of
@@ -22,15 +23,16 @@ class CandidatesFile : public DecisionLines {
   void write(std::size_t iteration, const Plan& plan);
 };
 
-/// The candidates of the decision that chose view `iteration`, in the order they were sampled, and
-/// which of them was chosen; `next` stays empty, and so do the points on their ways. Nothing for a
-/// run that wrote no candidates, or had none to write. Throws BadInput naming file and line of
-/// whatever is damaged, or a decision that the file does not hold, and the command that writes it.
+/// The candidates of the decision whose first view is `iteration`, in the order they were sampled,
+/// and which of them were chosen; `views` stay empty, and so do the points on their ways. Nothing
+/// for a run that wrote no candidates, or had none to write. Throws BadInput naming file and line
+/// of whatever is damaged, or a decision that the file does not hold, and the command that writes
+/// it.
 std::optional<Plan> read_candidates(const std::filesystem::path& run, std::size_t iteration);
 
-/// The same of the first `iterations` iterations at once, in their order; those that nothing chose
-/// have no candidates. Empty for a run that wrote none. Throws BadInput naming file and line of
-/// whatever is damaged.
+/// The same of the first `iterations` iterations at once, in their order; those that are the
+/// first view of no decision have no candidates. Empty for a run that wrote none. Throws BadInput
+/// naming file and line of whatever is damaged.
 std::vector<Plan> read_all_candidates(const std::filesystem::path& run, std::size_t iterations);
 
 }  // namespace gnbv

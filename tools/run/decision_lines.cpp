@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -24,10 +25,14 @@ std::size_t iteration_of(const Json& json) {
 
 LinesBefore lines_before(std::size_t iteration, const fs::path& run, const char* name) {
   LinesBefore kept;
+  std::size_t last = 0;
+  std::size_t chosen = 0;  // views of the last one
   read_decision_lines(run, name, iteration, "",
-                      [&](std::size_t of, const Json&, std::string_view row) {
+                      [&](std::size_t of, const Json& json, std::string_view row) {
                         kept.text.append(row) += '\n';
-                        kept.last_iteration = std::max(kept.last_iteration, of);
+                        if (std::exchange(last, of) != of) chosen = 0;
+                        chosen += json.value("chosen", false) ? 1 : 0;
+                        kept.next_iteration = of + std::max<std::size_t>(chosen, 1);
                       });
   return kept;
 }

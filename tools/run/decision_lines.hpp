@@ -11,10 +11,10 @@
 
 namespace gnbv {
 
-/// The whole lines of decisions before one.
+/// The whole lines of decisions whose first view comes before one.
 struct LinesBefore {
   std::string text;
-  std::size_t last_iteration = 0;  // 0: there are none
+  std::size_t next_iteration = 1;  // of the decision after them, as far as lines of candidates tell
 };
 
 /// As an interrupted run left them. Throws as read_decision_lines().

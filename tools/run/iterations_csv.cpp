@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
@@ -58,8 +59,11 @@ void visit_columns(View& view, Columns columns, Column&& column) {
   column("wall_plan_s", Wall{view.wall.plan_s});
   column("wall_fly_s", Wall{view.wall.fly_s});
   column("via", d.via_world_m);
-  if (columns == Columns::with_gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
+  if (columns.gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
+  if (columns.plans) column("plan_view", d.plan_view);
 }
+
+constexpr Columns kAllColumns = {.gimbal = true, .plans = true};
 
 std::string text_of(const auto& value) { return fmt::format("{}", value); }
 std::string text_of(const Sampler& sampler) { return std::string(traits_of(sampler).name); }
@@ -169,13 +173,20 @@ ViewRecord record_of(std::string_view row, Columns columns, int iteration, const
     throw BadInput(
         fmt::format("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration));
   }
+  const int number = view.decision.plan_view;
+  if (number < 1 || number > std::max(iteration, 1)) {
+    throw BadInput(fmt::format("{}: no plan has a view {} here", to_string(place), number));
+  }
   return view;
 }
 
 }  // namespace
 
 Columns columns_of(const Scenario& scenario) {
-  return gimbal_of(scenario.cameras) ? Columns::with_gimbal : Columns::usual;
+  const PlannerConfig& planner = scenario.planner;
+  return {.gimbal = gimbal_of(scenario.cameras).has_value(),
+          .plans = traits_of(planner).scores_views && planner.fvs.enabled &&
+                   planner.fvs.mode == FvsMode::burst};
 }
 
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
@@ -195,8 +206,8 @@ std::string JournalRows::row(const ViewRecord& view) {
 }
 
 std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded) {
-  const Cells of_now = cells_of(now, Columns::with_gimbal, false);
-  const Cells of_recorded = cells_of(recorded, Columns::with_gimbal, false);
+  const Cells of_now = cells_of(now, kAllColumns, false);
+  const Cells of_recorded = cells_of(recorded, kAllColumns, false);
   for (std::size_t i = 0; i < of_now.names.size(); ++i) {
     if (of_now.values[i] == of_recorded.values[i]) continue;
     return Difference{of_now.names[i], of_now.values[i], of_recorded.values[i]};
@@ -207,7 +218,9 @@ std::optional<Difference> first_difference(const ViewRecord& now, const ViewReco
 std::string views_sha256(std::span<const ViewRecord> views) {
   Sha256 sha;
   for (const ViewRecord& view : views) {
-    sha.add(joined(cells_of(view, Columns::with_gimbal, false).values) + ",");
+    // so that runs without bursts keep theirs
+    const Columns columns = {.gimbal = true, .plans = view.decision.plan_view != 1};
+    sha.add(joined(cells_of(view, columns, false).values) + ",");
   }
   return sha.hex();
 }
@@ -228,7 +241,7 @@ std::string decision_cells(const ViewRecord& view) {
 std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
   const std::string text = read_file(csv);
   std::vector<ViewRecord> views;
-  Columns columns = Columns::usual;
+  Columns columns;
   bool has_checks = false;
   std::string check;
   const auto take = [&](std::string_view row, const TextPlace& place) {
@@ -239,7 +252,9 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
     }
     has_checks = row.ends_with(kCheckColumn);
     if (has_checks) row.remove_suffix(kCheckColumn.size());
-    if (row == header_text(Columns::with_gimbal)) columns = Columns::with_gimbal;
+    for (const Columns& more : {Columns{.gimbal = true}, {.plans = true}, kAllColumns}) {
+      if (row == header_text(more)) columns = more;
+    }
     need_header(row, header_text(columns), place,
                 fmt::format(": of another version, and {} flies its mission again",
                             command_to_fly_again(csv.parent_path())));

@@ -12,11 +12,15 @@
 
 namespace gnbv {
 
-/// Runs of a vehicle with a gimbal have a column more, its pitch in radians.
-enum class Columns { usual, with_gimbal };
+/// Runs of a vehicle with a gimbal have a column more, its pitch in radians; those of a planner of
+/// bursts the number of each view in its plan, from 1 on: with the others nothing was decided.
+struct Columns {
+  bool gimbal = false;
+  bool plans = false;
+};
 Columns columns_of(const Scenario& scenario);
 
-std::string iterations_csv(std::span<const ViewRecord> views, Columns columns = Columns::usual);
+std::string iterations_csv(std::span<const ViewRecord> views, Columns columns = {});
 
 /// The rows of a run that goes on: a column more, `check`, is made of each row and of all before
 /// it, so that no change of them goes unnoticed.

@@ -46,6 +46,11 @@ struct ViewRecord {
   double flown_m = 0.0;     // the same, as flown
   double time_s = 0.0;      // simulated, since the start of the mission
   WallTimes wall = {};      // of this view alone
+
+  /// The iteration of the first view of its plan: what tells of the decision tells of that one.
+  std::size_t planned_at() const {
+    return static_cast<std::size_t>(iteration + 1 - decision.plan_view);
+  }
 };
 
 /// A view that a user gave, and what became of it. Neither: the mission ended before.

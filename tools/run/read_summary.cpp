@@ -127,6 +127,9 @@ RunFigures read_run_figures(const fs::path& run) {
   summary.read(figures.density_points_per_voxel, "/density_points_per_voxel");
   summary.read(figures.ceiling, "/ceiling_at_0.05");
   summary.read(figures.wall_s, "/wall_s/total");
+  std::optional<std::size_t> area_samples;
+  summary.read_if_there(area_samples, "/coverage/area_samples");
+  figures.area_samples = area_samples.value_or(0);
   CoverageFile coverage = read_coverage_csv(run / kCoverageFile);
   for (std::size_t i = 0; i < coverage.more_names.size(); ++i) {
     figures.more.push_back({.size_m = std::strtod(coverage.more_names[i].c_str(), nullptr),

@@ -46,6 +46,8 @@ Json effort_of(const MissionScore& score) {
 
 Json score_part(const MissionScore& score) {
   Json json;
+  json["coverage"]["reference"] = reference_name(score.area_samples);
+  if (score.area_samples > 0) json["coverage"]["area_samples"] = score.area_samples;
   visit_score(
       ScoreParts<false>{score.profile, score.final, score.profile_raw, score.final_raw, score.more,
                         score.distances, score.density},

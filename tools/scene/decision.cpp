@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
+#include "planner/guided/burst.hpp"
 #include "tools/scene/flight.hpp"
 #include "tools/scene/voxels.hpp"
 
@@ -58,6 +60,21 @@ void add_ray(const OccupancyGrid& grid, const Vec3& from, const Vec3& along, dou
   if (!says_something) scene.tubes.resize(tubes_before);
 }
 
+std::vector<Vec3> way_to(const RunRecord& record, std::size_t iteration) {
+  const Decision& next = record.views[iteration].decision;
+  std::vector<Vec3> way = {record.views[iteration - 1].decision.view.p_world_m};
+  way.insert(way.end(), next.via_world_m.begin(), next.via_world_m.end());
+  way.push_back(next.view.p_world_m);
+  return way;
+}
+
+void add_lines(std::span<const Vec3> way, const Rgb& colour, double width,
+               std::vector<PlaceLine>& lines) {
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    lines.push_back({way[i], way[i + 1], colour, width});
+  }
+}
+
 // Rings through the views around a cluster that stand in one layer (Fig. 6), as far as they lie
 // within the bounds.
 void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, double unit_m,
@@ -93,11 +110,15 @@ void add_layers(const Plan& plan, std::span<const FrontierCluster> clusters, dou
 
 }  // namespace
 
+double worth_of(const Candidate& candidate) {
+  return candidate.covers ? *candidate.covers : candidate.score.value;
+}
+
 ScoreRange scores_of(const Plan& plan) {
   ScoreRange scores;
   for (const Candidate& candidate : plan.candidates) {
     if (candidate.rejected) continue;
-    const double score = candidate.score.value;
+    const double score = worth_of(candidate);
     scores.low = scores.valid == 0 ? score : std::min(scores.low, score);
     scores.high = scores.valid == 0 ? score : std::max(scores.high, score);
     ++scores.valid;
@@ -113,7 +134,7 @@ BallItem ball_of(const Candidate& candidate, const ScoreRange& scores, double un
   }
   const double range = std::max(scores.high - scores.low, 1e-12);
   return {candidate.view.p_world_m.cast<float>(), static_cast<float>(6.6 * unit_m),
-          ramp(score_colours(), 1.0 - (scores.high - candidate.score.value) / range)};
+          ramp(score_colours(), 1.0 - (scores.high - worth_of(candidate)) / range)};
 }
 
 void add_candidates(const Plan& plan, double unit_m, RenderScene& scene) {
@@ -131,38 +152,67 @@ bool has_frontier_views(const Plan& plan) {
                      [](const Candidate& candidate) { return candidate.cluster >= 0; });
 }
 
-void add_frontiers(const FrontierConfig& config, const ReplayedDecision& decision, double unit_m,
-                   const RenderView& view, Panel& panel) {
+void add_frontiers(const ReplayedDecision& decision, double unit_m, const RenderView& view,
+                   Panel& panel) {
   RenderScene& scene = panel.scene;
-  const Belief& belief = decision.belief;
-  FrontierMarks marks(belief.grid.geometry().voxel_count());
-  // those that could be tried, by their numbers, then the others
-  std::vector<FrontierCluster> clusters = decision.plan.clusters;
-  std::set<VoxelIndex> numbered;
-  for (const FrontierCluster& cluster : clusters) numbered.insert(cluster.voxels.front());
-  for (FrontierCluster& cluster : find_frontiers(config, belief.grid, belief.cloud, marks)) {
-    if (!numbered.contains(cluster.voxels.front())) clusters.push_back(std::move(cluster));
-  }
-  const int chosen = decision.plan.chosen.empty()
-                         ? -1
-                         : decision.plan.candidates[decision.plan.chosen.front()].cluster;
-  int tried = -1;
-  for (const Candidate& c : decision.plan.candidates) tried = std::max(tried, c.cluster);
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const bool is_chosen = static_cast<int>(i) == chosen;
-    const std::vector<Rgb> colour = {(is_chosen ? looks::kLookedAt : looks::kFrontier).rgb()};
+  const auto& [belief, plan] = decision;
+  const std::vector<FrontierCluster>& clusters = plan.clusters;
+  const auto add_cubes = [&](const std::vector<VoxelIndex>& voxels, const Look& look) {
     // a hair larger than the map's own cubes, which may be as large as their voxels
     constexpr double kOver = 1.02;
+    if (voxels.empty()) return;
     scene.surfaces.push_back(
-        voxel_cubes(belief.grid.geometry(), clusters[i].voxels, colour, kOver));
+        voxel_cubes(belief.grid.geometry(), voxels, std::vector{look.rgb()}, kOver));
+    if (plan.is_burst()) scene.surfaces.back().opacity = 0.4F;  // as the cubes of the map
+  };
+  int tried = -1;
+  for (const Candidate& c : plan.candidates) tried = std::max(tried, c.cluster);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const bool is_chosen = plan.looks_at(static_cast<int>(i));
+    add_cubes(clusters[i].voxels, is_chosen ? looks::kLookedAt : looks::kFrontier);
     if (static_cast<int>(i) > tried) continue;
     const Vec3& centre_m = clusters[i].centroid_world_m;
     // the middle of a cluster may lie within the surface
     if (!shows(view, belief.grid, centre_m, 3.0 * belief.grid.geometry().resolution_m())) continue;
     panel.labels.insert(is_chosen ? panel.labels.begin() : panel.labels.end(),
-                        {centre_m, fmt::format("{}", i + 1), looks::kLookedAt.rgb()});
+                        {centre_m, fmt::format("{}{}", plan.is_burst() ? "cluster " : "", i + 1),
+                         looks::kLookedAt.rgb()});
   }
-  add_layers(decision.plan, clusters, unit_m, scene);
+  std::vector<VoxelIndex> others;
+  std::ranges::set_difference(plan.frontier, voxels_of(clusters), std::back_inserter(others));
+  add_cubes(others, looks::kFrontier);
+  add_layers(plan, clusters, unit_m, scene);
+}
+
+Covered add_points_to_cover(const Scenario& scenario, const ReplayedDecision& decision,
+                            double unit_m, RenderScene& scene) {
+  const auto& [belief, plan] = decision;
+  const FvsConfig& fvs = scenario.planner.fvs;
+  const std::vector<CameraModel> cameras = camera_models(scenario);
+  std::array<DotsItem, 2> dots;  // left, covered
+  Covered out;
+  for (std::size_t cluster = 0; cluster < plan.clusters.size(); ++cluster) {
+    if (!plan.looks_at(static_cast<int>(cluster))) continue;
+    const std::vector<Vec3f> points_m = points_around(fvs, belief.cloud, plan.clusters[cluster]);
+    std::vector<bool> is_covered(points_m.size());
+    for (const std::size_t kept : plan.chosen) {
+      if (plan.candidates[kept].cluster != static_cast<int>(cluster)) continue;
+      const std::vector<bool> seen =
+          points_in_sight(fvs.culling, cameras, belief.grid, plan.candidates[kept].view, points_m);
+      for (std::size_t i = 0; i < seen.size(); ++i) is_covered[i] = is_covered[i] || seen[i];
+    }
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      dots[is_covered[i] ? 1 : 0].points_m.push_back(points_m[i]);
+    }
+    out.points += points_m.size();
+  }
+  out.covered = dots[1].points_m.size();
+  for (DotsItem& item : dots) {
+    item.colours = {(&item == &dots[1] ? looks::kCovered : looks::kNotCovered).rgb()};
+    item.radius_m = static_cast<float>(1.6 * unit_m);
+    if (!item.points_m.empty()) scene.dots.push_back(std::move(item));
+  }
+  return out;
 }
 
 void add_chosen_view(const RunRecord& record, const World& world, const Belief& belief,
@@ -193,21 +243,30 @@ void add_chosen_view(const RunRecord& record, const World& world, const Belief& 
 }
 
 std::vector<PlaceLine> way_to_chosen(const RunRecord& record, std::size_t iteration) {
-  std::vector<Vec3> way = {record.views[iteration - 1].decision.view.p_world_m};
-  const auto& via = record.views[iteration].decision.via_world_m;
-  way.insert(way.end(), via.begin(), via.end());
-  way.push_back(record.views[iteration].decision.view.p_world_m);
   const Rgb chosen = looks::kChosen.rgb();
   const Rgb white = {1.0F, 1.0F, 1.0F};
+  const std::vector<Vec3> way = way_to(record, iteration);
   std::vector<PlaceLine> lines = {{way.back(), way.back(), chosen, 14.0}};
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    lines.push_back({way[i], way[i + 1], chosen, 2.4});
+  const std::size_t first = record.views[iteration].planned_at();
+  for (std::size_t i = first; i < record.views.size(); ++i) {
+    if (record.views[i].planned_at() != first) break;
+    add_lines(way_to(record, i), chosen, i == iteration ? 2.4 : 1.0, lines);
   }
   lines.push_back({way.back(), way.back(), white, 6.0});
   // the smaller ring, uppermost: a way too short to be seen leaves one within the other
   lines.push_back({way.front(), way.front(), looks::kViewBefore.rgb(), 8.0});
   lines.push_back({way.front(), way.front(), white, 3.0});
   return lines;
+}
+
+void add_numbers_of_views(const Plan& plan, const Decision& now, Panel& panel) {
+  if (plan.chosen.size() < 2) return;
+  for (std::size_t i = 0; i < plan.chosen.size(); ++i) {
+    const bool is_now = static_cast<int>(i) + 1 == now.plan_view;
+    const Vec3& p_m = plan.candidates[plan.chosen[i]].view.p_world_m;
+    panel.labels.insert(is_now ? panel.labels.begin() : panel.labels.end(),
+                        {p_m, fmt::format("{}", i + 1), looks::kChosen.rgb()});
+  }
 }
 
 }  // namespace gnbv

@@ -25,7 +25,7 @@ constexpr std::array<SceneLayer, 15> kLayers = {{{"cloud", "Points"},
                                                  {"frontiers", "Frontiers"},
                                                  {"surface", "Surface"}}};
 
-constexpr std::array<const Look*, 29> kLooks = {
+constexpr std::array<const Look*, 31> kLooks = {
     &looks::kStructure,     &looks::kObstacle,      &looks::kTerrain,     &looks::kNoFly,
     &looks::kWorkspace,     &looks::kSeen,          &looks::kNewPoints,   &looks::kProfilePoints,
     &looks::kOccupied,      &looks::kUnknown,       &looks::kPredicted,   &looks::kFrontier,
@@ -33,7 +33,7 @@ constexpr std::array<const Look*, 29> kLooks = {
     &looks::kMissedInOrder, &looks::kOnlyOther,     &looks::kProfile,     &looks::kPlan,
     &looks::kCamera,        &looks::kHull,          &looks::kFrontRotors, &looks::kRearRotors,
     &looks::kChosen,        &looks::kViewBefore,    &looks::kRayFree,     &looks::kRayUnknown,
-    &looks::kRayHit};
+    &looks::kRayHit,        &looks::kCovered,       &looks::kNotCovered};
 
 constexpr std::array<RejectionLook, kRejectionNames.size()> kRejections = {
     {{Rejection::out_of_bounds, "out of bounds",

@@ -73,6 +73,8 @@ inline constexpr Look kRearRotors{"rear_rotors", "vehicle", "rear rotors", 0x4a5
 
 // one decision
 inline constexpr Look kChosen{"chosen", "candidates", "chosen view", 0x0057ff, 0x5b96ff};
+inline constexpr Look kCovered{"covered", "candidates", "covered", 0x008f5f};
+inline constexpr Look kNotCovered{"not_covered", "candidates", "not covered", 0xd5420a};
 inline constexpr Look kViewBefore{"view_before", "candidates", "view before", 0x14181e, 0xf4f6f9};
 inline constexpr Look kRayFree{"ray_free", "candidates", "ray through free", 0x9aa5b3, 0x75808e};
 inline constexpr Look kRayUnknown{"ray_unknown", "candidates", "through unknown", 0xe69f00};

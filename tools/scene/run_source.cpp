@@ -24,14 +24,20 @@ std::string why_no_profile(const RunRecord& record) {
       command_to_fly_again(record.folder, "--set planner.profiling.method=bounding_box"));
 }
 
-/// The clusters of a decision that was read: candidates.jsonl has their numbers only.
-std::vector<FrontierCluster> clusters_of(const RecordedMission& mission, std::size_t iteration,
-                                         const Belief& belief) {
+/// Adds to a decision that was read its clusters, of which candidates.jsonl has the numbers only.
+/// Those of bursts leave others out that were tried before, and are planned anew by every replay.
+void add_clusters(const RecordedMission& mission, std::size_t iteration,
+                  const ReplayedDecision& again, Plan& plan) {
+  const FvsConfig& fvs = mission.scenario.planner.fvs;
+  if (fvs.mode == FvsMode::burst) {
+    plan.clusters = again.plan.clusters;
+    plan.frontier = again.plan.frontier;
+    return;
+  }
   std::vector<Decision> decisions;
   for (const ViewRecord& view : mission.views.first(iteration)) decisions.push_back(view.decision);
-  FrontierMarks marks(belief.grid.geometry().voxel_count());
-  return clusters_to_try(mission.scenario.planner.fvs, belief, decisions,
-                         decisions.back().view.p_world_m, marks);
+  FrontierMarks marks(again.belief.grid.geometry().voxel_count());
+  find_clusters_to_try(fvs, again.belief, decisions, decisions.back().view.p_world_m, marks, plan);
 }
 
 /// One flight for all of that, with the candidates that the run kept. Where those of a decision
@@ -50,8 +56,8 @@ Replayed flown_again(const RecordedMission& mission, const std::filesystem::path
   request.plans = !plan;
   Replayed again = replay(mission, request);
   if (plan) {
+    add_clusters(mission, *request.decision, *again.decision, *plan);
     again.decision->plan = std::move(*plan);
-    again.decision->plan.clusters = clusters_of(mission, *request.decision, again.decision->belief);
   }
   return again;
 }
@@ -111,6 +117,7 @@ RecordedMission RunSource::mission() {
 
 void RunSource::expect(const ReplayRequest& request) {
   expected_ = request;
+  if (request.decision) expected_.decision = record_.views[*request.decision].planned_at();
   expected_.waypoints = {1, 3};
 }
 
@@ -190,8 +197,8 @@ const Belief& RunSource::belief_after(std::size_t iteration) {
 }
 
 const ReplayedDecision& RunSource::decision(std::size_t iteration) {
-  expected_.decision = iteration;
-  if (known_.decision != iteration) fly_again(true);
+  expected_.decision = record_.views[iteration].planned_at();
+  if (known_.decision != expected_.decision) fly_again(true);
   expected_.decision.reset();
   return *again_.decision;
 }

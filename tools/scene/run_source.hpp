@@ -42,15 +42,15 @@ class RunSource {
   const std::vector<ProfileStage>& profile();
   /// What was believed after a view. Throws BadInput as replay().
   const Belief& belief_after(std::size_t iteration);
-  /// The decision that chose a view: its candidates are those of candidates.jsonl where the run has
-  /// one, or else planned again. Throws BadInput as replay().
+  /// The decision that chose a view, perhaps before the view before: its candidates are those of
+  /// candidates.jsonl where the run has one, or else planned again. Throws BadInput as replay().
   const ReplayedDecision& decision(std::size_t iteration);
 
   /// Lets go of what is large and can be had again: everything but record, structure and what was
   /// expected and not asked for yet.
   void forget();
 
-  /// What will be asked for, so that it comes from one flight.
+  /// What will be asked for, so that it comes from one flight; of any view its decision.
   void expect(const ReplayRequest& request);
   /// Begins that flight now, beside whatever else is drawn; who asks for its results waits for it.
   void fly_ahead();

@@ -179,8 +179,14 @@ bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderSc
                        const Vec3f middle_m = 0.5F * (tube.points_m.front() + tube.points_m.back());
                        return tube.colours.front() == colour && is_shown(middle_m, within_m);
                      }) ||
-         std::any_of(scene.balls.begin(), scene.balls.end(), [&](const BallItem& ball) {
-           return ball.colour == colour && is_shown(ball.centre_m, within_m);
+         std::any_of(scene.balls.begin(), scene.balls.end(),
+                     [&](const BallItem& ball) {
+                       return ball.colour == colour && is_shown(ball.centre_m, within_m);
+                     }) ||
+         std::any_of(scene.dots.begin(), scene.dots.end(), [&](const DotsItem& dots) {
+           return dots.colours.front() == colour &&
+                  std::ranges::any_of(dots.points_m,
+                                      [&](const Vec3f& p_m) { return is_shown(p_m, within_m); });
          });
 }
 

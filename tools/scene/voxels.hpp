@@ -38,8 +38,8 @@ SurfaceItem free_faces(const OccupancyGrid& grid, std::span<const VoxelIndex> vo
 bool shows(const RenderView& view, const OccupancyGrid& grid, const Vec3& p_world_m,
            double beside_m);
 
-/// Whether the picture shows anything of that colour: a ball, the middle of a tube, or of a face of
-/// the surfaces above. These may lie within an occupied voxel, but not behind it.
+/// Whether the picture shows anything of that colour: a ball, a dot, the middle of a tube, or of a
+/// face of the surfaces above. These may lie within an occupied voxel, but not behind it.
 bool shows_any(const RenderView& view, const OccupancyGrid& grid, const RenderScene& scene,
                const Rgb& colour);
 

@@ -71,7 +71,7 @@ std::vector<TextureView> texture_views(const FrameRecord& record,
                 .depth_steps = read_depth(record, i)};
     TextureView& view = views[i];
     for (const CameraConfig& camera : cameras) {
-      if (camera.name == view.camera.name) view.range_max_m = camera.range_max_m;
+      if (camera.name == view.camera.name) view.range_max_m = return_end_m(camera);
     }
   });
   return views;

@@ -74,6 +74,22 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
   return collected;
 }
 
+/// Before anything is flown: coverages of unlike voxels cannot be set beside each other.
+void need_one_reference(const std::vector<Cell>& cells) {
+  std::map<std::string, const Cell*> firsts;
+  const auto samples = [](const Cell& cell) {
+    return reference_config(cell.resolved).area_samples;
+  };
+  for (const Cell& cell : cells) {
+    const Cell& first = *firsts.try_emplace(cell.scenario, &cell).first->second;
+    if (samples(cell) == samples(first)) continue;
+    throw BadInput(fmt::format(
+        "{}: {} and {} count unlike voxels (score.reference, score.area_samples): their coverages "
+        "cannot be compared",
+        cell.scenario, first.method, cell.method));
+  }
+}
+
 }  // namespace
 
 fs::path bench_folder(const BenchOptions& options) {
@@ -87,6 +103,7 @@ std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count) {
 }
 
 BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options) {
+  need_one_reference(cells);
   const RunCellsOptions run{.folder = bench_folder(options),
                             .jobs = options.jobs,
                             .threads = options.threads,
@@ -101,6 +118,7 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options)
 }
 
 BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
+  need_one_reference(cells);
   std::vector<CellOutcome> outcomes;
   for (const Cell& cell : cells) outcomes.push_back(look_up(folder, cell));
   return collect(cells, outcomes);
@@ -109,7 +127,7 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
   if (options.ceiling_percent) {
     Ceiling given;
-    given.leaf_outside[0] = 0.01 * *options.ceiling_percent;
+    given.leaf_counted[0] = 0.01 * *options.ceiling_percent;
     given.is_given = true;
     return given;
   }

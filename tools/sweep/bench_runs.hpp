@@ -39,10 +39,11 @@ struct BenchRuns {
   std::vector<std::string> failures;  // of the notes: cells without a result, collisions
 };
 
-/// Flies what is missing and reads all. Throws CommandFailed when it is interrupted.
+/// Flies what is missing and reads all. Throws CommandFailed when it is interrupted, BadInput
+/// before that for cells of a scenario whose coverages are of unlike voxels.
 BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options);
 
-/// What is known of the cells in a folder, without flying anything.
+/// What is known of the cells in a folder, without flying anything. Throws BadInput as fly_cells().
 BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
 
 /// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.

@@ -104,7 +104,7 @@ Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<Compa
     for (const ComparedRun& run : runs) {
       if (run.method == method.name) covered.push_back(run.figures.coverage_final[0]);
     }
-    return covered.empty() || estimate_mean(covered).mean <= ceiling.leaf_outside[0];
+    return covered.empty() || estimate_mean(covered).mean <= ceiling.leaf_counted[0];
   });
   const std::vector<Override> exact = exact_overrides(scenario);
   for (SweepMethod& method : sweep.methods) {

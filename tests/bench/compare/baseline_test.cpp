@@ -142,8 +142,11 @@ TEST(Baseline, OfSomethingElseNamesEveryDifference) {
   EXPECT_EQ(updated_baseline(other, baseline, "b.json").termination, "max_iterations");
   const std::vector<std::function<void(RunFigures&)>> changes = {
       [](RunFigures& r) { r.scenario = "aircraft"; },
-      [](RunFigures& r) { r.structure = "ship.obj"; }, [](RunFigures& r) { r.utility = "isler"; },
-      [](RunFigures& r) { r.preset = "released"; }, [](RunFigures& r) { r.seed = 4; }};
+      [](RunFigures& r) { r.structure = "ship.obj"; },
+      [](RunFigures& r) { r.utility = "isler"; },
+      [](RunFigures& r) { r.preset = "released"; },
+      [](RunFigures& r) { r.seed = 4; },
+      [](RunFigures& r) { r.area_samples = 5000; }};
   for (const auto& change : changes) {
     RunFigures one = run();
     change(one);
@@ -151,7 +154,8 @@ TEST(Baseline, OfSomethingElseNamesEveryDifference) {
     change(other);
   }
   EXPECT_TRUE(test::says(test::fault_of([&] { check_against(baseline, "b.json", other); }),
-                         {"b.json", "aircraft", "ship.obj", "isler", "released", "4", "1.3.0"}));
+                         {"b.json", "aircraft", "ship.obj", "isler", "released", "4", "1.3.0",
+                          "reference outside, the run's is area_samples 5000"}));
 }
 
 TEST(Baseline, AFileWithAFaultIsRefusedByKey) {

@@ -172,7 +172,7 @@ TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
 Ceilings ceilings_at(const std::map<std::string, double>& most) {
   Ceilings all;
   for (const auto& [method, coverage] : most) {
-    all[{"aircraft", method}].leaf_outside = {coverage, 1.0, 1.0};
+    all[{"aircraft", method}].leaf_counted = {coverage, 1.0, 1.0};
   }
   return all;
 }

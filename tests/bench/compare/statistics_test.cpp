@@ -161,6 +161,30 @@ TEST(Holm, StepsDownAndNeverDecreases) {
   EXPECT_EQ(holm_adjusted(std::vector<double>{0.2}), (std::vector<double>{0.2}));
 }
 
+TEST(ShareDescending, CountsTheDrawsThatComeInThatOrder) {
+  const std::vector<std::vector<double>> groups = {
+      normal_values(7, 1), normal_values(5, 2), normal_values(6, 3), {-2.0, -2.0, 0.5}};
+  double in_order = 0.0;
+  for (const double a : groups[0]) {
+    for (const double b : groups[1]) {
+      for (const double c : groups[2]) {
+        for (const double d : groups[3]) in_order += a > b && b > c && c > d ? 1.0 : 0.0;
+      }
+    }
+  }
+  ASSERT_GT(in_order, 0.0);
+  EXPECT_NEAR(share_descending(groups), in_order / (7.0 * 5.0 * 6.0 * 3.0), 1e-12);
+  EXPECT_EQ(share_descending(std::vector<std::vector<double>>{{1.0, 2.0}, {1.0, 2.0}}), 0.25);
+}
+
+TEST(ShareBelow, EqualValuesCountHalf) {
+  const std::vector<double> values = {1.0, 2.0, 2.0, 4.0};
+  EXPECT_EQ(share_below(values, 0.5), 0.0);
+  EXPECT_EQ(share_below(values, 2.0), 0.5);
+  EXPECT_EQ(share_below(values, 3.0), 0.75);
+  EXPECT_EQ(share_below(values, 9.0), 1.0);
+}
+
 TEST(Ranks, EqualValuesShareTheirs) {
   EXPECT_EQ(ranks_of(std::vector<double>{3.0, 1.0, 3.0, 2.0}),
             (std::vector<double>{3.5, 1.0, 3.5, 2.0}));

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "bench/limits/ceiling.hpp"
 #include "bench/limits/seen_surface.hpp"
 #include "scenarios/load.hpp"
 #include "tools/mission/load_world.hpp"
@@ -22,8 +23,7 @@ struct LimitsSetting {
   RayScene scene{world};
   ViewPose start = start_pose(scenario, scene);
   LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, 2);
-  SurfaceReference reference =
-      make_surface_reference(world, scene, {.floor_z_m = scenario.planner.floor_z_m}, 2);
+  SurfaceReference reference = make_surface_reference(world, scene, reference_config(scenario), 2);
 };
 
 }  // namespace gnbv

@@ -76,7 +76,7 @@ TEST(Oracle, FindsItsShareOfWhatAllViewsTogetherKeep) {
   const Smoke& s = smoke();
   const std::vector<CameraModel> cameras = exact_cameras(s.scenario);
   for (const OracleAim aim : {OracleAim::views, OracleAim::metres}) {
-    CloudOfViews cloud(s.scenario, s.reference.outside[0]);
+    CloudOfViews cloud(s.scenario, s.reference.counted[0]);
     std::vector<FrameRays> rays;
     const auto add = [&](const ViewPose& view) {
       take_view(s.scene, cameras, view, s.scenario.planner.floor_z_m, 1, rays);
@@ -85,11 +85,11 @@ TEST(Oracle, FindsItsShareOfWhatAllViewsTogetherKeep) {
     add(s.start);
     for (const Decision& view : route(aim)) add(view.view);
     const double coverage_now =
-        coverage_at_all_sizes(s.reference.outside, cloud.points_world_m())[0];
+        coverage_at_all_sizes(s.reference.counted, cloud.points_world_m())[0];
     EXPECT_DOUBLE_EQ(coverage_now, static_cast<double>(cloud.found()) /
-                                       static_cast<double>(s.reference.outside[0].size()));
-    EXPECT_GE(coverage_now, kOracleShare * survey().leaf_outside[0]);
-    EXPECT_LE(coverage_now, survey().leaf_outside[0] + 0.01);
+                                       static_cast<double>(s.reference.counted[0].size()));
+    EXPECT_GE(coverage_now, kOracleShare * survey().leaf_counted[0]);
+    EXPECT_LE(coverage_now, survey().leaf_counted[0] + 0.01);
   }
 }
 
@@ -149,7 +149,7 @@ TEST(LatticeWays, RowsAreNoShorterThanTheWays) {
 }
 
 TEST(ViewSurvey, FindsNoMoreAloneThanThereIsAndTogetherWhatTheCloudKeeps) {
-  const std::size_t voxels = smoke().reference.outside[0].size();
+  const std::size_t voxels = smoke().reference.counted[0].size();
   std::vector<bool> found(voxels, false);
   ASSERT_FALSE(survey().views.empty());
   for (const SurveyedView& view : survey().views) {
@@ -158,7 +158,7 @@ TEST(ViewSurvey, FindsNoMoreAloneThanThereIsAndTogetherWhatTheCloudKeeps) {
   }
   const auto together = static_cast<double>(std::count(found.begin(), found.end(), true));
   // a leaf of the common cloud keeps one view's centroid, of all that the views alone would keep
-  EXPECT_LE(survey().leaf_outside[0], together / static_cast<double>(voxels) + 1e-12);
+  EXPECT_LE(survey().leaf_counted[0], together / static_cast<double>(voxels) + 1e-12);
 }
 
 TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
@@ -205,15 +205,26 @@ TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
   const auto content_of = [](const Scenario& scenario) {
     return to_yaml(what_a_ceiling_depends_on(scenario));
   };
-  for (const std::string set :
-       {"cameras.0.fov_y_deg=50", "cameras.0.range_max_m=4", "cameras.0.width_px=80",
-        "cameras.0.pitch_deg=9", "planner.floor_z_m=0.2", "planner.cloud.leaf_m=0.06",
-        "planner.map.resolution_m=0.1", "workspace_m.max=[4,4,6]",
-        "planner.validity.collision_radius_m=0.9", "planner.validity.z_min_m=0.8",
-        "lidars.0.pitch_deg=5", "lidars.0.range_max_m=12", "planner.profiling.method=none",
-        "planner.profiling.scan_in_transit=false", "score.region_m={max: [0, 5, 5]}",
-        "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]", "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]",
-        "start.position_m=[0, 2.8, 1.2]"}) {
+  for (const std::string set : {"cameras.0.fov_y_deg=50",
+                                "cameras.0.range_max_m=4",
+                                "cameras.0.width_px=80",
+                                "cameras.0.pitch_deg=9",
+                                "planner.floor_z_m=0.2",
+                                "planner.cloud.leaf_m=0.06",
+                                "planner.map.resolution_m=0.1",
+                                "workspace_m.max=[4,4,6]",
+                                "planner.validity.collision_radius_m=0.9",
+                                "planner.validity.z_min_m=0.8",
+                                "lidars.0.pitch_deg=5",
+                                "lidars.0.range_max_m=12",
+                                "planner.profiling.method=none",
+                                "planner.profiling.scan_in_transit=false",
+                                "score.region_m={max: [0, 5, 5]}",
+                                "no_fly=[{min: [3, 3, 3], max: [4, 4, 4]}]",
+                                "no_fly=[{min: [30, 3, 3], max: [40, 4, 4]}]",
+                                "start.position_m=[0, 2.8, 1.2]",
+                                "score.reference=area_samples",
+                                "score={reference: area_samples, area_samples: 99}"}) {
     const Scenario other = load_scenario("smoke", {set});
     EXPECT_TRUE(keys.insert(key_of(other)).second) << set;
     EXPECT_NE(content_of(other), content_of(s.scenario)) << set;
@@ -247,7 +258,7 @@ TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
         "planner.validity.path=astar", "cameras.0.noise.model=released", "cameras.0.rate_hz=2",
         "cameras.0.name=x", "cameras.0.drop_probability=0.3", "guidance.path_speed_m_s=2",
         "vehicle.kind=ideal", "benchmark.stop_at_coverage=0.5", "wind.mean_m_s=[1, 0, 0]",
-        "score.sizes_m=[0.2]", "lidars.0.range_sigma_m=0.1"}) {
+        "score.sizes_m=[0.2]", "score.area_samples=99", "lidars.0.range_sigma_m=0.1"}) {
     const Scenario other = load_scenario("smoke", {set});
     EXPECT_FALSE(keys.insert(key_of(other)).second) << set;
     EXPECT_EQ(content_of(other), content_of(s.scenario)) << set;

@@ -262,16 +262,16 @@ TEST(SeenSurface, IsNoLessThanWhatNoiseFreeMissionsCover) {
     const Ceiling ceiling = find_ceiling(scenario, m.world, m.scene, m.start, 2);
     const Flown flown(scenario);
     const auto cloud = flown.result.belief.cloud.points_world_m();
-    const auto covered = coverage_at_all_sizes(m.reference.outside, cloud);
+    const auto covered = coverage_at_all_sizes(m.reference.counted, cloud);
     for (std::size_t size = 0; size < 3; ++size) {
-      EXPECT_LE(covered[size], ceiling.outside[size]) << name << " " << size;
-      EXPECT_LE(covered[size], ceiling.leaf_outside[size]) << name << " " << size;
+      EXPECT_LE(covered[size], ceiling.counted[size]) << name << " " << size;
+      EXPECT_LE(covered[size], ceiling.leaf_counted[size]) << name << " " << size;
     }
     // and voxel by voxel, but for the few where the leaf's centroid lies beside the surface
     const VoxelSet voxels = voxels_of(cloud, kCoverageSizes_m[0]);
     std::size_t in_reference = 0;
     std::size_t unseen = 0;
-    for (const std::uint64_t code : m.reference.outside[0]) {
+    for (const std::uint64_t code : m.reference.counted[0]) {
       if (!std::binary_search(voxels.begin(), voxels.end(), code)) continue;
       ++in_reference;
       unseen += std::binary_search(seen.voxels.begin(), seen.voxels.end(), code) ? 0 : 1;
@@ -296,8 +296,8 @@ TEST(SeenSurface, HasWhatViewsFromLegalPositionsShow) {
     const double yaw_rad =
         std::atan2(to_m.y(), to_m.x()) + 0.5 * uniform01({3, Stream::bench, i, 1}) - 0.25;
     take_view(scene, cameras, {legal.p_world_m[at], yaw_rad}, scenario.planner.floor_z_m, 2, rays);
-    for (const std::uint32_t voxel : finds_alone(reference.outside[0], rays, 0.02)) {
-      shown.push_back(reference.outside[0][voxel]);
+    for (const std::uint32_t voxel : finds_alone(reference.counted[0], rays, 0.02)) {
+      shown.push_back(reference.counted[0][voxel]);
     }
   }
   std::sort(shown.begin(), shown.end());
@@ -332,6 +332,34 @@ TEST(SeenSurface, AVoxelKeepsAPointOfALeafThatItHasAQuarterOf) {
   }
 }
 
+TEST(Ceiling, IsMeasuredAgainstWhatItsMissionsAre) {
+  Scenario scenario = noise_free("smoke", "bircher", 12);
+  const Flown flown(scenario);
+  const auto cloud = flown.result.belief.cloud.points_world_m();
+  std::array<Ceiling, 2> ceilings;
+  for (const ScoreReference reference : {ScoreReference::outside, ScoreReference::area_samples}) {
+    scenario.score.reference = reference;
+    const LimitsSetting m(scenario);
+    Ceiling& ceiling = ceilings[reference == ScoreReference::outside ? 0 : 1];
+    ceiling = find_ceiling(scenario, m.world, m.scene, m.start, 2);
+    EXPECT_EQ(ceiling.area_samples, m.reference.area_samples);
+    const auto covered = coverage_at_all_sizes(m.reference.counted, cloud);
+    for (std::size_t size = 0; size < 3; ++size) {
+      EXPECT_LE(covered[size], ceiling.leaf_counted[size]) << size;
+      EXPECT_LE(ceiling.leaf_counted[size], ceiling.counted[size]) << size;
+    }
+    EXPECT_GT(covered[0], 0.5 * ceiling.leaf_counted[0]);
+  }
+  // of the inner surface, which is asked for, nothing can be had
+  EXPECT_LT(ceilings[1].counted[0], ceilings[0].counted[0]);
+  EXPECT_NEAR(ceilings[1].raw[0], ceilings[0].raw[0], 1e-3);
+  const std::string json = ceiling_json(scenario, ceilings[1], {}, 0.0);
+  EXPECT_NE(json.find("\"leaf_area_samples\""), std::string::npos);
+  EXPECT_EQ(json.find("outside"), std::string::npos);
+  EXPECT_NE(ceiling_text(ceilings[1], {}, 0.0).find("155,000 points drawn by area"),
+            std::string::npos);
+}
+
 TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
   for (const auto& [name, leaf_m] :
        {std::pair("smoke", 0.05), std::pair("smoke", 0.02), std::pair("lab_model", 0.02)}) {
@@ -339,12 +367,12 @@ TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
     scenario.planner.cloud.leaf_m = leaf_m;
     const LimitsSetting m(scenario);
     const Ceiling ceiling = find_ceiling(scenario, m.world, m.scene, m.start, 2);
-    EXPECT_LE(ceiling.leaf_outside[0], ceiling.outside[0]) << name;
+    EXPECT_LE(ceiling.leaf_counted[0], ceiling.counted[0]) << name;
     for (const std::size_t size : {1U, 2U}) {
-      EXPECT_EQ(ceiling.leaf_outside[size], ceiling.outside[size]) << name << " " << size;
+      EXPECT_EQ(ceiling.leaf_counted[size], ceiling.counted[size]) << name << " " << size;
       EXPECT_EQ(ceiling.leaf_raw[size], ceiling.raw[size]) << name << " " << size;
     }
-    EXPECT_LT(ceiling.raw[0], ceiling.outside[0]) << name;
+    EXPECT_LT(ceiling.raw[0], ceiling.counted[0]) << name;
   }
 }
 

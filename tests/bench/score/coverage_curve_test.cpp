@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/score/run_figures.hpp"
+#include "bench/score/surface_pieces.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "tests/bench/shapes.hpp"
@@ -13,11 +14,11 @@
 namespace gnbv {
 namespace {
 
-SurfaceReference box_in_a_box() {
+SurfaceReference box_in_a_box(std::size_t area_samples = 0) {
   World world;
   test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
   test::add_box(world.structure, Vec3(-0.6, -0.6, 0.9), Vec3(1.2, 1.2, 1.2));
-  return make_surface_reference(world, RayScene(world), {}, 2);
+  return make_surface_reference(world, RayScene(world), {.area_samples = area_samples}, 2);
 }
 
 std::vector<Vec3f> random_points(std::size_t count) {
@@ -31,20 +32,20 @@ std::vector<Vec3f> random_points(std::size_t count) {
 }
 
 TEST(CoverageOfPrefixes, EqualsTheSetsOfEachPrefix) {
-  const SurfaceReference reference = box_in_a_box();
   const std::vector<Vec3f> cloud = random_points(20000);
   const std::vector<std::size_t> prefixes = {0, 1, 10, 10, 500, 4999, 20000};
-  for (const int threads : {1, 3}) {
+  for (const auto& [threads, area_samples] : {std::pair(1, 0U), {3, 0U}, {2, 3000U}}) {
+    const SurfaceReference reference = box_in_a_box(area_samples);
     const auto shares = coverage_of_prefixes(reference, cloud, prefixes, threads);
     ASSERT_EQ(shares.size(), prefixes.size());
     for (std::size_t i = 0; i < prefixes.size(); ++i) {
       const std::span<const Vec3f> prefix = std::span(cloud).first(prefixes[i]);
       EXPECT_EQ(shares[i].raw, coverage_at_all_sizes(reference.raw, prefix)) << i;
-      EXPECT_EQ(shares[i].outside, coverage_at_all_sizes(reference.outside, prefix)) << i;
+      EXPECT_EQ(shares[i].counted, coverage_at_all_sizes(reference.counted, prefix)) << i;
     }
     EXPECT_EQ(shares.front().raw, (std::array<double, 3>{}));
     EXPECT_GT(shares.back().raw[0], 0.1);
-    EXPECT_NE(shares.back().raw[0], shares.back().outside[0]);
+    EXPECT_NE(shares.back().raw[0], shares.back().counted[0]);
   }
 }
 
@@ -52,10 +53,10 @@ TEST(CoverageMeter, EqualsTheSetsOfTheCloudAsItGrows) {
   const SurfaceReference reference = box_in_a_box();
   const std::vector<Vec3f> cloud = random_points(20000);
   for (const std::size_t size : {0U, 2U}) {
-    CoverageMeter meter(reference.outside[size], kCoverageSizes_m[size]);
+    CoverageMeter meter(reference.counted[size], kCoverageSizes_m[size]);
     for (const std::size_t count : {0U, 10U, 10U, 5000U, 20000U}) {
       const std::span<const Vec3f> grown = std::span(cloud).first(count);
-      EXPECT_EQ(meter.share_of(grown), coverage_at_all_sizes(reference.outside, grown)[size]);
+      EXPECT_EQ(meter.share_of(grown), coverage_at_all_sizes(reference.counted, grown)[size]);
     }
   }
 }
@@ -72,13 +73,32 @@ TEST(CoverageOfPrefixes, OfAnEmptyReferenceIsZeroAndPrefixesGrowWithinTheCloud) 
 
 TEST(ReferencePoints, OneLiesInEachVoxelSeenFromOutsideInItsOrder) {
   const SurfaceReference reference = box_in_a_box();
-  ASSERT_EQ(reference.points_world_m.size(), reference.outside[0].size());
+  ASSERT_EQ(reference.points_world_m.size(), reference.counted[0].size());
   for (std::size_t i = 0; i < reference.points_world_m.size(); ++i) {
     ASSERT_EQ(voxel_code(reference.points_world_m[i], kCoverageSizes_m[0]),
-              reference.outside[0][i]);
+              reference.counted[0][i]);
     // on the outer box, never on the inner one
     const Vec3f from_centre_m = reference.points_world_m[i] - Vec3f(0, 0, 1.5F);
     ASSERT_NEAR(from_centre_m.cwiseAbs().maxCoeff(), 1.0F, 1e-5F);
+  }
+}
+
+TEST(ReferencePoints, OfAreaSamplesAreThoseNearestToTheirVoxelsCentres) {
+  const SurfaceReference reference = box_in_a_box(20000);
+  World world;
+  test::add_box(world.structure, Vec3(-1, -1, 0.5), Vec3(2, 2, 2));
+  test::add_box(world.structure, Vec3(-0.6, -0.6, 0.9), Vec3(1.2, 1.2, 1.2));
+  const std::vector<Vec3f> drawn = drawn_by_area(world.structure, 0.3, 20000);
+  ASSERT_EQ(reference.points_world_m.size(), reference.counted[0].size());
+  for (std::size_t i = 0; i < reference.points_world_m.size(); i += 7) {
+    const Vec3f centre_m =
+        voxel_centre_m(reference.counted[0][i], kCoverageSizes_m[0]).cast<float>();
+    float nearest_m = 1.0F;
+    for (const Vec3f& p_m : drawn) {
+      if (voxel_code(p_m, kCoverageSizes_m[0]) != reference.counted[0][i]) continue;
+      nearest_m = std::min(nearest_m, (p_m - centre_m).norm());
+    }
+    EXPECT_EQ((reference.points_world_m[i] - centre_m).norm(), nearest_m) << i;
   }
 }
 

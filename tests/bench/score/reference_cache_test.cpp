@@ -47,7 +47,7 @@ TEST_F(ReferenceCache, GivesBackWhatWasComputedAndIsReallyAsked) {
   // compact: the points as they lie in memory, of the codes less than half
   const std::size_t points = made.points_world_m.size() + made.samples_world_m.size();
   std::size_t codes = 0;
-  for (std::size_t i = 0; i < 3; ++i) codes += made.raw[i].size() + made.outside[i].size();
+  for (std::size_t i = 0; i < 3; ++i) codes += made.raw[i].size() + made.counted[i].size();
   EXPECT_LT(fs::file_size(files()[0]), points * sizeof(Vec3f) + codes * sizeof(std::uint64_t) / 2);
   // what it holds is what is returned: put another structure's reference under this key
   World other = world_;
@@ -62,6 +62,14 @@ TEST_F(ReferenceCache, GivesBackWhatWasComputedAndIsReallyAsked) {
   EXPECT_EQ(cached(world_), others);
 }
 
+TEST_F(ReferenceCache, GivesBackAreaSamples) {
+  const ReferenceConfig config{.area_samples = 1000};
+  const SurfaceReference made = make_surface_reference(world_, RayScene(world_), config, 2);
+  EXPECT_EQ(made.area_samples, 1000U);
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(cached(world_, config), made);
+  EXPECT_EQ(files().size(), 1U);
+}
+
 TEST_F(ReferenceCache, EveryInputHasAKeyOfItsOwn) {
   std::vector<World> worlds(5, world_);
   worlds[1].structure.vertices_m[5].z() += 1e-6F;
@@ -74,13 +82,14 @@ TEST_F(ReferenceCache, EveryInputHasAKeyOfItsOwn) {
   for (const ReferenceConfig& config :
        {ReferenceConfig{.floor_z_m = 0.7}, ReferenceConfig{.sample_spacing_m = 0.02},
         ReferenceConfig{.directions = 64}, ReferenceConfig{.escape_near_m = 1e-3},
-        ReferenceConfig{.fewest_samples = 1000}, half}) {
+        ReferenceConfig{.fewest_samples = 1000}, ReferenceConfig{.area_samples = 1000},
+        ReferenceConfig{.area_samples = 1001}, half}) {
     cached(world_, config);
   }
-  EXPECT_EQ(files().size(), 11U);
+  EXPECT_EQ(files().size(), 13U);
   world_.structure.materials[0].rgb = {0.1F, 0.2F, 0.3F};
   cached(world_);
-  EXPECT_EQ(files().size(), 11U);
+  EXPECT_EQ(files().size(), 13U);
 }
 
 TEST_F(ReferenceCache, ComputesAnewWhatIsDamagedOrOfAnotherForm) {

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 
 #include "assets/catalog.hpp"
+#include "bench/score/surface_pieces.hpp"
 #include "bench/score/surface_samples.hpp"
 #include "tests/bench/shapes.hpp"
 
@@ -47,7 +51,7 @@ TEST(SurfaceReference, CubeHasTheVoxelsOfItsShell) {
   const std::array<std::size_t, 3> expected = {shell(21), shell(11), shell(3) - poor};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(reference.raw[i].size(), expected[i]) << i;
-    EXPECT_EQ(reference.outside[i], reference.raw[i]) << i;
+    EXPECT_EQ(reference.counted[i], reference.raw[i]) << i;
   }
 }
 
@@ -59,7 +63,7 @@ TEST(SurfaceReference, ASliverCountsFromATenthOfAFaceOn) {
     const SurfaceReference reference = reference_of(sheet);
     const std::size_t columns = width_m < 0.005 ? 1 : 2;
     EXPECT_EQ(reference.raw[0].size(), columns * 20U) << width_m;
-    EXPECT_EQ(reference.outside[0].size(), columns * 20U) << width_m;
+    EXPECT_EQ(reference.counted[0].size(), columns * 20U) << width_m;
   }
 }
 
@@ -76,7 +80,7 @@ TEST(SurfaceReference, SliversOfFineVoxelsAddUpInACoarseOne) {
   const SurfaceReference reference = reference_of(strips);
   EXPECT_TRUE(reference.raw[0].empty());
   EXPECT_EQ(reference.raw[1].size(), 10U);
-  EXPECT_EQ(reference.outside[1].size(), 10U);
+  EXPECT_EQ(reference.counted[1].size(), 10U);
 }
 
 TEST(SurfaceReference, BoxInsideAClosedBoxIsNeverOutside) {
@@ -87,8 +91,8 @@ TEST(SurfaceReference, BoxInsideAClosedBoxIsNeverOutside) {
   const SurfaceReference reference = reference_of(both);
   const VoxelSet hidden = voxels_of_mesh(inner, 0.05);
   EXPECT_EQ(common(reference.raw[0], hidden), hidden.size());
-  EXPECT_EQ(common(reference.outside[0], hidden), 0U);
-  EXPECT_EQ(reference.outside[0].size(), reference.raw[0].size() - hidden.size());
+  EXPECT_EQ(common(reference.counted[0], hidden), 0U);
+  EXPECT_EQ(reference.counted[0].size(), reference.raw[0].size() - hidden.size());
 }
 
 TEST(SurfaceReference, OpenBoxShowsWhatItsMouthLooksAt) {
@@ -100,7 +104,7 @@ TEST(SurfaceReference, OpenBoxShowsWhatItsMouthLooksAt) {
   test::add_box(open, kMin, Vec3(2, 2, 2), false);
   const SurfaceReference reference = reference_of(open);
   const VoxelSet boxed = voxels_of_mesh(inner, 0.05);
-  const std::size_t shown = common(reference.outside[0], boxed);
+  const std::size_t shown = common(reference.counted[0], boxed);
   // the top is 21 x 21; the bottom looks at the floor 0.5 m below, of which nothing leads out
   EXPECT_GE(shown, 21U * 21U);
   EXPECT_LE(shown, boxed.size() - 19U * 19U);
@@ -114,10 +118,10 @@ TEST(SurfaceReference, SheetIsSeenFromEitherSide) {
                     flipped ? Vec3(1, 0, 0) : Vec3(0, 1, 0));
     const SurfaceReference alone = reference_of(mesh);
     EXPECT_EQ(alone.raw[0].size(), 21U * 21U);
-    EXPECT_EQ(alone.outside[0], alone.raw[0]);
+    EXPECT_EQ(alone.counted[0], alone.raw[0]);
     test::add_sheet(mesh, kMin + Vec3(0, 0, 0.2), Vec3(1, 0, 0), Vec3(0, 1, 0));
     const SurfaceReference covered = reference_of(mesh);
-    EXPECT_EQ(covered.outside[0], covered.raw[0]);
+    EXPECT_EQ(covered.counted[0], covered.raw[0]);
   }
 }
 
@@ -130,7 +134,7 @@ TEST(SurfaceReference, SheetBetweenTwoOthersIsSeenThroughTheGaps) {
   }
   const SurfaceReference reference = reference_of(mesh);
   EXPECT_EQ(reference.raw[0].size(), 3U * 21U * 21U);
-  EXPECT_EQ(reference.outside[0], reference.raw[0]);
+  EXPECT_EQ(reference.counted[0], reference.raw[0]);
 }
 
 TEST(SurfaceReference, BottomOfAShaftIsSeenAlongItsNormal) {
@@ -143,7 +147,7 @@ TEST(SurfaceReference, BottomOfAShaftIsSeenAlongItsNormal) {
     const Vec3 b = flipped ? Vec3(0.2, 0, 0) : Vec3(0, 0.2, 0);
     test::add_sheet(mesh, kMin + Vec3(0, 0, 0.2), a, b);
     const std::uint64_t middle = voxel_code((kMin + Vec3(0.1, 0.1, 0.2)).cast<float>(), 0.05);
-    const VoxelSet outside = reference_of(mesh).outside[0];
+    const VoxelSet outside = reference_of(mesh).counted[0];
     EXPECT_TRUE(std::binary_search(outside.begin(), outside.end(), middle));
   }
 }
@@ -162,7 +166,7 @@ TEST(SurfaceReference, AsideTheNormalATenthOfASteradianMustBeOpen) {
                     Vec3(0, 1.5 - 0.5 * hole_m, 0));
     test::add_sheet(mesh, kMin + Vec3(2.2, 1.4, 0.5), Vec3(0.2, 0, 0), Vec3(0, 0.2, 0));
     const std::uint64_t middle = voxel_code((kMin + Vec3(2.3, 1.5, 0.5)).cast<float>(), 0.05);
-    const VoxelSet outside = reference_of(mesh).outside[0];
+    const VoxelSet outside = reference_of(mesh).counted[0];
     EXPECT_EQ(std::binary_search(outside.begin(), outside.end(), middle), hole_m > 0.5) << hole_m;
   }
 }
@@ -181,10 +185,94 @@ TEST(SurfaceReference, SurfaceBelowTheFloorIsNotAskedFor) {
   EXPECT_EQ(reference_of(wall, 1, from_the_ground).raw[0].size(), 21U * 20U);
 }
 
+TEST(AreaSamples, ASheetOfKVoxelsHasAsManyAsDrawsMeet) {
+  // each draw meets any of the 400 voxels alike: a share of 1 - (1 - 1/400)^n of them holds one
+  TriangleMesh sheet;
+  test::add_sheet(sheet, Vec3(1, 1, 1.025), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  for (const std::size_t draws : {100U, 400U, 1000U, 10000U}) {
+    const double missed = std::pow(1.0 - 1.0 / 400.0, static_cast<double>(draws));
+    const auto held =
+        static_cast<double>(reference_of(sheet, 2, {.area_samples = draws}).counted[0].size());
+    EXPECT_NEAR(held, 400.0 * (1.0 - missed),
+                4.0 * std::sqrt(400.0 * missed * (1.0 - missed)) + 1e-9)
+        << draws;
+  }
+}
+
+/// An open box with a closed one in it, on a pole that goes below the floor.
+TriangleMesh boxes_on_a_pole() {
+  TriangleMesh mesh;
+  test::add_box(mesh, kMin, Vec3(2, 2, 2), false);
+  test::add_box(mesh, kMin + Vec3(0.5, 0.5, 0.5), Vec3(1, 1, 1));
+  test::add_box(mesh, Vec3(2.01, 2.01, -1.0), Vec3(0.1, 0.1, 2.0));
+  return mesh;
+}
+
+TEST(AreaSamples, VoxelsAndShareAreThoseOfAPlainLoop) {
+  constexpr std::size_t kDraws = 4000;
+  const TriangleMesh mesh = boxes_on_a_pole();
+  const SurfaceReference reference = reference_of(mesh, 2, {.area_samples = kDraws});
+  const std::vector<Vec3f> drawn = drawn_by_area(mesh, 0.3, kDraws);
+  std::vector<Vec3f> cloud;
+  for (std::size_t i = 0; i < kDraws; ++i) {
+    cloud.push_back(drawn[i] + Vec3f(0.02F, i % 3 == 0 ? 0.2F : 0.0F, -0.01F));
+  }
+  const auto shares = coverage_at_all_sizes(reference.counted, cloud);
+  for (std::size_t size = 0; size < 3; ++size) {
+    const auto voxels_per_m = static_cast<float>(1.0 / kCoverageSizes_m[size]);
+    const auto cells_of = [&](const std::vector<Vec3f>& points) {
+      std::set<std::array<float, 3>> cells;
+      for (const Vec3f& p : points) {
+        cells.insert({std::floor(p.x() * voxels_per_m), std::floor(p.y() * voxels_per_m),
+                      std::floor(p.z() * voxels_per_m)});
+      }
+      return cells;
+    };
+    const auto held = cells_of(drawn);
+    const auto met = cells_of(cloud);
+    const auto found = std::ranges::count_if(held, [&](const auto& c) { return met.contains(c); });
+    EXPECT_EQ(reference.counted[size].size(), held.size()) << size;
+    EXPECT_DOUBLE_EQ(shares[size], static_cast<double>(found) / static_cast<double>(held.size()));
+    EXPECT_GT(shares[size], 0.1);
+    EXPECT_LT(shares[size], 1.0);
+  }
+}
+
+TEST(AreaSamples, ChangeNothingElseAndAreTheSameAtAnyNumberOfThreads) {
+  const TriangleMesh mesh = boxes_on_a_pole();
+  const SurfaceReference outside = reference_of(mesh, 2);
+  const SurfaceReference one = reference_of(mesh, 1, {.area_samples = 3000});
+  for (const int threads : {2, 5}) {
+    EXPECT_EQ(reference_of(mesh, threads, {.area_samples = 3000}), one) << threads;
+  }
+  EXPECT_EQ(one.raw, outside.raw);
+  EXPECT_EQ(one.samples_world_m, outside.samples_world_m);
+  // the inner box is asked for, too
+  TriangleMesh inner;
+  test::add_box(inner, kMin + Vec3(0.5, 0.5, 0.5), Vec3(1, 1, 1));
+  const VoxelSet low = voxels_of_mesh(inner, 0.05);
+  EXPECT_GT(common(one.counted[0], low), low.size() / 10);
+}
+
+TEST(AreaSamples, OfARegionAreThoseWithTheirVoxelsCentresInIt) {
+  const TriangleMesh mesh = boxes_on_a_pole();
+  const auto counted_in = [&](double from_m, double to_m) {
+    const Box3 region_m(Vec3(from_m, -9, -9), Vec3(to_m, 9, 9));
+    return reference_of(mesh, 2, {.area_samples = 3000, .region_m = region_m}).counted;
+  };
+  const auto whole = counted_in(-9, 9), west = counted_in(-9, 2), east = counted_in(2, 9);
+  for (std::size_t size = 0; size < 3; ++size) {
+    VoxelSet both;
+    std::ranges::set_union(west[size], east[size], std::back_inserter(both));
+    EXPECT_EQ(both, whole[size]);
+    EXPECT_EQ(both.size(), west[size].size() + east[size].size());
+  }
+}
+
 TEST(SurfaceReference, EmptyMeshAsksForNothing) {
   const SurfaceReference reference = reference_of(TriangleMesh{});
   EXPECT_TRUE(reference.raw[0].empty());
-  EXPECT_EQ(coverage_at_all_sizes(reference.outside, {}), (std::array<double, 3>{0, 0, 0}));
+  EXPECT_EQ(coverage_at_all_sizes(reference.counted, {}), (std::array<double, 3>{0, 0, 0}));
 }
 
 /// The voxels that are in one of the two, as a share of the first.
@@ -206,7 +294,7 @@ TEST(SurfaceReference, HalvingTheSpacingMovesCoverageByLessThanAFifthOfAPoint) {
     const SurfaceReference fine = reference_of(mesh, 2, halved);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(coarse.raw[i], fine.raw[i]) << name;
-      EXPECT_LT(unlike(coarse.outside[i], fine.outside[i]), 0.002) << name << " " << i;
+      EXPECT_LT(unlike(coarse.counted[i], fine.counted[i]), 0.002) << name << " " << i;
     }
   }
 }

@@ -180,6 +180,47 @@ TEST(SurfacePieces, PointsSpreadEvenlyOverThem) {
   for (const int count : quarters) EXPECT_NEAR(count, 0.25 * all, 0.01 * all);
 }
 
+TEST(DrawnByArea, AreAsManyOnEachPartAsItsAreaAboveTheFloorAsks) {
+  // a cube of a metre, half of it below the floor: lid and half walls are 3 m2; and 3 m2 of strips
+  TriangleMesh mesh;
+  test::add_box(mesh, Vec3(0, 0, -0.2), Vec3(1, 1, 1));
+  for (int strip = 0; strip < 100; ++strip) {
+    test::add_sheet(mesh, Vec3(2.0, 0.01 * strip, 1.0), Vec3(3, 0, 0), Vec3(0, 0.01, 0));
+  }
+  constexpr std::size_t kCount = 60000;
+  const std::vector<Vec3f> drawn = drawn_by_area(mesh, 0.3, kCount);
+  ASSERT_EQ(drawn.size(), kCount);
+  std::array<int, 7> on{};  // lid, four walls, strips up to the middle, the others
+  for (const Vec3f& p : drawn) {
+    ASSERT_GE(p.z(), 0.3F);
+    const bool is_strip = p.x() >= 2.0F;
+    const std::array<bool, 7> is_on = {p.z() == 0.8F,
+                                       p.x() == 0.0F,
+                                       p.x() == 1.0F,
+                                       p.y() == 0.0F && !is_strip,
+                                       p.y() == 1.0F && !is_strip,
+                                       is_strip && p.x() < 3.5F && p.z() == 1.0F,
+                                       is_strip && p.x() >= 3.5F && p.z() == 1.0F};
+    const auto which = std::ranges::find(is_on, true) - is_on.begin();
+    ASSERT_LT(which, 7) << p.transpose();
+    ++on[static_cast<std::size_t>(which)];
+  }
+  const std::array<double, 7> area_m2 = {1.0, 0.5, 0.5, 0.5, 0.5, 1.5, 1.5};
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    const double share = area_m2[i] / 6.0;  // and four deviations of the binomial law
+    EXPECT_NEAR(on[i], kCount * share, 4.0 * std::sqrt(kCount * share * (1.0 - share))) << i;
+  }
+}
+
+TEST(DrawnByArea, ToFewerAreTheFirstAndThereAreNoneWithoutArea) {
+  const TriangleMesh mesh = corner_soup();
+  const std::vector<Vec3f> many = drawn_by_area(mesh, 0.3, 500);
+  const std::vector<Vec3f> few = drawn_by_area(mesh, 0.3, 50);
+  EXPECT_TRUE(std::ranges::equal(few, std::span(many).first(50)));
+  EXPECT_TRUE(drawn_by_area(mesh, 9.0, 50).empty());
+  EXPECT_TRUE(drawn_by_area({}, 0.3, 50).empty());
+}
+
 TEST(PointTree, WithABoundItFindsWhatLiesNearerAndNothingElse) {
   const std::vector<Vec3f> points = {Vec3f(1, 0, 0), Vec3f(0, 2, 0), Vec3f(0, 0, 3)};
   const PointTree tree(points);

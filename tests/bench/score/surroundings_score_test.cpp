@@ -109,7 +109,7 @@ TEST(SurroundingsScore, WhatAnObstacleStandsAgainstIsNotSeen) {
   EXPECT_EQ(beside.raw, alone.raw);
   const double face = 1.0 / 6.0;
   const auto share =
-      static_cast<double>(beside.outside[0].size()) / static_cast<double>(alone.outside[0].size());
+      static_cast<double>(beside.counted[0].size()) / static_cast<double>(alone.counted[0].size());
   EXPECT_NEAR(share, 1.0 - face, 0.02);  // but for the voxels of its edges
   for (const Vec3f& p_m : beside.samples_world_m) EXPECT_LT(p_m.x(), 1.0F);
 }
@@ -125,7 +125,7 @@ TEST(SurroundingsScore, WhatLiesUnderTheTerrainIsNotSeen) {
   for (const Vec3f& p_m : sunk.samples_world_m) EXPECT_GT(p_m.z(), 1.5F - 1e-3F);
   // of 24 m2 the upper half of the walls and the lid are left
   EXPECT_NEAR(
-      static_cast<double>(sunk.outside[0].size()) / static_cast<double>(alone.outside[0].size()),
+      static_cast<double>(sunk.counted[0].size()) / static_cast<double>(alone.counted[0].size()),
       12.0 / 24.0, 0.02);
 }
 
@@ -135,7 +135,7 @@ TEST(Region, HalvesShareTheReferenceBetweenThem) {
   const SurfaceReference east = reference_in(world, Box3(Vec3(0, -9, -9), Vec3(9, 9, 9)));
   const SurfaceReference west = reference_in(world, Box3(Vec3(-9, -9, -9), Vec3(0, 9, 9)));
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
-    for (const auto part : {&SurfaceReference::raw, &SurfaceReference::outside}) {
+    for (const auto part : {&SurfaceReference::raw, &SurfaceReference::counted}) {
       VoxelSet both;
       std::set_union((east.*part)[size].begin(), (east.*part)[size].end(),
                      (west.*part)[size].begin(), (west.*part)[size].end(),
@@ -144,7 +144,7 @@ TEST(Region, HalvesShareTheReferenceBetweenThem) {
       EXPECT_EQ(both.size(), (east.*part)[size].size() + (west.*part)[size].size());
     }
   }
-  EXPECT_EQ(east.points_world_m.size(), east.outside[0].size());
+  EXPECT_EQ(east.points_world_m.size(), east.counted[0].size());
   for (const Vec3f& p_m : east.samples_world_m) EXPECT_GE(p_m.x(), 0.0F);
 }
 

@@ -120,7 +120,7 @@ TEST(SizedShares, APointCoversOneOfTheVoxelsOfTheShell) {
   const std::vector<Vec3f> cloud = {{1.5F, 1.5F, 1.021F}, {1.5F, 1.5F, 1.5F}};  // one is inside
   for (const int threads : {1, 3}) {
     const SizedShares shares = shares_of(cube(), 0.04, cloud, ReferenceConfig{}.region_m, threads);
-    EXPECT_DOUBLE_EQ(shares.outside.at(0), 1.0 / shell(26));  // from 1.00 to 2.04 m
+    EXPECT_DOUBLE_EQ(shares.counted.at(0), 1.0 / shell(26));  // from 1.00 to 2.04 m
     EXPECT_DOUBLE_EQ(shares.raw.at(0), 1.0 / shell(26));
   }
 }
@@ -129,9 +129,9 @@ TEST(SizedShares, OfABoxAreOfTheVoxelsWithTheirCentresInIt) {
   const std::vector<Vec3f> cloud = {{1.5F, 1.5F, 1.021F}, {1.5F, 1.5F, 2.019F}};
   // the lowest layer, a whole square of the shell, has its centres at 1.02 m
   const Box3 low(Vec3(0, 0, 1.0), Vec3(3, 3, 1.03));
-  EXPECT_DOUBLE_EQ(shares_of(cube(), 0.04, cloud, low).outside.at(0), 1.0 / (26 * 26));
+  EXPECT_DOUBLE_EQ(shares_of(cube(), 0.04, cloud, low).counted.at(0), 1.0 / (26 * 26));
   const Box3 lower(Vec3(0, 0, 1.0), Vec3(3, 3, 1.019));
-  EXPECT_EQ(shares_of(cube(), 0.04, cloud, lower).outside.at(0), 0.0);
+  EXPECT_EQ(shares_of(cube(), 0.04, cloud, lower).counted.at(0), 0.0);
 }
 
 TEST(SizedShares, OfThePapersSizesAreThePapers) {
@@ -145,16 +145,19 @@ TEST(SizedShares, OfThePapersSizesAreThePapers) {
   for (int i = 0; i < 20000; ++i) {
     cloud.emplace_back(coordinate(random), coordinate(random), coordinate(random));
   }
-  const SurfaceReference reference = make_surface_reference(world, RayScene(world), {}, 2);
   const std::vector<std::size_t> prefixes = {100, cloud.size()};
-  const auto papers = coverage_of_prefixes(reference, cloud, prefixes, 2);
-  EXPECT_GT(papers[1].outside[2], 0.5);
-  for (std::size_t size = 0; size < 3; ++size) {
-    const SizedShares ours =
-        sized_shares(world, kCoverageSizes_m[size], {.floor_z_m = 0.3}, cloud, prefixes, 2);
-    for (std::size_t i = 0; i < prefixes.size(); ++i) {
-      EXPECT_NEAR(ours.raw[i], papers[i].raw[size], 1e-12) << size;
-      EXPECT_NEAR(ours.outside[i], papers[i].outside[size], 1e-12) << size;
+  for (const std::size_t area_samples : {0U, 5000U}) {
+    const ReferenceConfig config{.floor_z_m = 0.3, .area_samples = area_samples};
+    const SurfaceReference reference = make_surface_reference(world, RayScene(world), config, 2);
+    const auto papers = coverage_of_prefixes(reference, cloud, prefixes, 2);
+    EXPECT_GT(papers[1].counted[2], 0.5);
+    for (std::size_t size = 0; size < 3; ++size) {
+      const SizedShares ours =
+          sized_shares(world, kCoverageSizes_m[size], config, cloud, prefixes, 2);
+      for (std::size_t i = 0; i < prefixes.size(); ++i) {
+        EXPECT_NEAR(ours.raw[i], papers[i].raw[size], 1e-12) << size;
+        EXPECT_NEAR(ours.counted[i], papers[i].counted[size], 1e-12) << size;
+      }
     }
   }
 }
@@ -180,7 +183,7 @@ TEST(ScoreMoreSizes, AscendWithoutThePapersAndEndTheirCurvesWithTheLastView) {
   scored.views = {{.cloud_points = 1}, {.cloud_points = 2}};  // and a point in flight
   const std::vector<double> sizes_m = {0.2, 0.05, 0.04};
   const World world = cube();
-  const auto more = score_more_sizes(sizes_m, world, RayScene(world), 0.3, scored, 2);
+  const auto more = score_more_sizes(sizes_m, world, RayScene(world), {}, scored, 2);
   ASSERT_EQ(more.size(), 2U);
   EXPECT_EQ(more[0].size_m, 0.04);
   EXPECT_EQ(more[1].size_m, 0.2);

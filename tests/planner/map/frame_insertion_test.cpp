@@ -12,6 +12,7 @@
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/map/scan_insertion.hpp"
+#include "planner/planners.hpp"
 #include "tests/planner/map/frames.hpp"
 #include "tests/support/at_simd_level.hpp"
 
@@ -23,11 +24,12 @@ const Box3 kBox_m(Vec3(-6, -5, 0), Vec3(6.1, 5, 6));
 
 /// Octomap's rule ray by ray, with its own ray keys.
 ScanUpdate expected_update(const GridGeometry& grid, const OctomapTwin& twin,
-                           const DepthFrame& frame, const CameraModel& camera) {
+                           const DepthFrame& frame, const CameraModel& camera,
+                           NoReturn no_return = NoReturn::free) {
   const Vec3f origin_m = frame.T_world_camera.translation().cast<float>();
   std::vector<char> is_free(grid.voxel_count(), 0);
   std::vector<char> is_occupied(grid.voxel_count(), 0);
-  for (const ScanRay& ray : rays_of(frame, camera, kFloor_m)) {
+  for (const ScanRay& ray : rays_of(frame, camera, kFloor_m, no_return)) {
     for (const Key& key : twin.ray_keys(origin_m, ray.end_world_m)) {
       if (grid.contains(key)) is_free[grid.index_of(key)] = 1;
     }
@@ -57,8 +59,9 @@ std::string difference(const std::vector<VoxelIndex>& ours, const std::vector<Vo
 class FrameInsertion : public AtSimdLevel {
  protected:
   /// On some numbers of threads, with memory used before.
-  void expect_equal(const DepthFrame& frame, const CameraModel& camera, const char* what) {
-    const ScanUpdate expected = expected_update(grid_, twin_, frame, camera);
+  void expect_equal(const DepthFrame& frame, const CameraModel& camera, const char* what,
+                    NoReturn no_return = NoReturn::free) {
+    const ScanUpdate expected = expected_update(grid_, twin_, frame, camera, no_return);
     touched_ += expected.free.size() + expected.occupied.size();
     FrameRays rays;
     const auto expect = [&](const ScanUpdate& update, int threads) {
@@ -68,7 +71,7 @@ class FrameInsertion : public AtSimdLevel {
           << what << ", " << threads << " threads";
     };
     const bool is_projected = can_project(grid_, frame, camera);
-    compute_frame_rays(frame, camera, kFloor_m, rays);
+    compute_frame_rays(frame, camera, kFloor_m, rays, no_return);
     for (const int threads : {1, 2, 5}) {
       if (is_projected) expect(frames_.compute_update(rays, frame, camera, map_, threads), threads);
     }
@@ -121,6 +124,7 @@ TEST_P(FrameInsertion, EqualsOctomapForScenesPlanesAndNoiseSeenFromAnyPose) {
         expect_equal(frame, camera, "half a plane");
         frame.depth_m = noise_depths(random, camera);
         expect_equal(frame, camera, "noise");
+        expect_equal(frame, camera, "noise, no return unknown", NoReturn::unknown);
         if (HasFatalFailure()) return;
       }
     }
@@ -265,6 +269,78 @@ TEST_P(FrameInsertion, FramesThatCannotBeProjectedEqualOctomapToo) {
 }
 
 GNBV_AT_EVERY_SIMD_LEVEL(FrameInsertion);
+
+/// A ball, whose returns count, before a wall that is too deep for any.
+constexpr double kReturnMax_m = 5.0;
+const AnalyticScene kDeepWall = {
+    .spheres = {{Vec3(-1.0, 0.0, 2.0), 0.7}}, .ground_z_m = -50.0, .wall_x_m = 2.05};
+
+/// What a voxel is after one frame, walked in steps of a millimetre; -1: met by no step.
+std::vector<int> walked_states(const GridGeometry& grid, const DepthFrame& frame,
+                               const CameraModel& camera, NoReturn no_return) {
+  std::vector<int> states(grid.voxel_count(), -1);
+  const auto mark = [&](const Key& key, VoxelState state) {
+    if (!grid.contains(key)) return;
+    int& is = states[grid.index_of(key)];
+    is = std::max(is, static_cast<int>(state));  // what is hit is not freed
+  };
+  const auto is_within = [&](const Vec3& p_m, const Key& key) {  // by more than floats round
+    return (p_m - grid.center_m(key)).cwiseAbs().maxCoeff() < 0.5 * grid.resolution_m() - 1e-4;
+  };
+  const Vec3 eye_m = frame.T_world_camera.translation();
+  for (int v = 0; v < camera.config.height_px; ++v) {
+    for (int u = 0; u < camera.config.width_px; ++u) {
+      const Vec3 direction = frame.T_world_camera.linear() * camera.ray_camera(u, v).cast<double>();
+      const double depth_m = first_hit(kDeepWall, eye_m, direction);
+      const bool returns = depth_m <= kReturnMax_m;
+      if (!returns && no_return == NoReturn::unknown) continue;
+      const double end_m = returns ? depth_m : camera.config.range_max_m;
+      const Key end = grid.key_of(Vec3f((eye_m + end_m * direction).cast<float>()));
+      for (double z_m = 0.0; z_m < end_m; z_m += 1e-3 / direction.norm()) {
+        const Vec3 p_m = eye_m + z_m * direction;
+        const Key key = grid.key_of(Vec3f(p_m.cast<float>()));
+        if (key != end && is_within(p_m, key)) mark(key, VoxelState::free);
+      }
+      if (returns) mark(end, VoxelState::occupied);
+    }
+  }
+  return states;
+}
+
+TEST(NoReturn, FreeClearsThroughADeepWallUnknownLeavesItAsAWalkOfEachRaySays) {
+  CameraModel camera = camera_of(61, 47, 40.0, 30.0);
+  camera.config.return_max_m = kReturnMax_m;
+  const DepthFrame frame =
+      analytic_depth(kDeepWall, camera, T_world_body({Vec3(-5.13, 0.02, 2.03), 0.0}));
+  for (const NoReturn no_return : {NoReturn::free, NoReturn::unknown}) {
+    PlannerConfig config;
+    config.map.no_return = no_return;
+    const PlannerModel model = make_model(config, kBox_m, {&camera.config, 1}, {});
+    Scratch scratch(model, 2);
+    Belief belief(model);
+    integrate_view(model, {&frame, 1}, scratch, belief);
+    const GridGeometry& grid = belief.grid.geometry();
+    const std::vector<int> walked = walked_states(grid, frame, camera, no_return);
+    std::size_t grazed = 0;  // for less than a step
+    for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+      const auto is = static_cast<int>(belief.grid.state(v));
+      if (walked[v] >= 0) {
+        ASSERT_EQ(is, walked[v]) << v;
+      }
+      grazed += walked[v] < 0 && is != 0 ? 1 : 0;
+    }
+    EXPECT_LE(grazed, grid.voxel_count() / 1000);
+    const auto state_at = [&](double x_m, double y_m) {
+      return belief.grid.state(
+          grid.index_of(grid.key_of(Vec3f(Vec3(x_m, y_m, 2.1).cast<float>()))));
+    };
+    EXPECT_EQ(state_at(-1.65, 0.1), VoxelState::occupied) << "the ball";
+    EXPECT_EQ(state_at(-0.5, 0.1), VoxelState::unknown) << "behind it";
+    const VoxelState beside = no_return == NoReturn::free ? VoxelState::free : VoxelState::unknown;
+    for (const double x_m : {0.1, 1.9, 2.1, 2.3, 2.7}) EXPECT_EQ(state_at(x_m, 1.7), beside) << x_m;
+    EXPECT_EQ(state_at(3.1, 1.7), VoxelState::unknown) << "beyond range_max_m";
+  }
+}
 
 }  // namespace
 }  // namespace gnbv

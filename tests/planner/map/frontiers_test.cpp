@@ -7,7 +7,9 @@
 #include <cmath>
 #include <set>
 
+#include "bench/reference/pcl_twin.hpp"
 #include "tests/planner/map/drawn_map.hpp"
+#include "tests/planner/map/random_points.hpp"
 
 namespace gnbv {
 namespace {
@@ -45,7 +47,8 @@ TEST(Frontier, IsOccupiedAndThinlySampledButNotEmpty) {
   map.occupy(Vec3(2.1, 0.1, 1.1), 300);  // 300 points within the search radius of one another
   map.occupy(Vec3(4.1, 0.1, 1.1), 0);
   const auto frontier_at = [&](double x_m) {
-    return is_frontier({}, map.grid, map.cloud, voxel_at(map.grid, Vec3(x_m, 0.1, 1.1)));
+    return is_frontier({.occupied_only = true}, map.grid, map.cloud,
+                       voxel_at(map.grid, Vec3(x_m, 0.1, 1.1)));
   };
   EXPECT_TRUE(frontier_at(0.1));
   EXPECT_FALSE(frontier_at(2.1));
@@ -63,8 +66,8 @@ TEST(Frontier, PointsInClearedVoxelsCountWhereAsked) {
     // as rays that pass a thin part do
     clear(map.grid, {voxel_at(map.grid, p_m)});
   }
-  FrontierConfig config;
-  config.min_cluster_voxels = 1;
+  FrontierConfig config = {
+      .occupied_only = true, .linking = FrontierLinking::face, .min_cluster_voxels = 1};
   ASSERT_EQ(map.clusters(config).size(), 1U);
   EXPECT_EQ(map.clusters(config)[0].voxels.size(), 1U);
   config.occupied_only = false;
@@ -105,7 +108,9 @@ TEST(Frontier, ClustersAreTheComponentsOfTheNeighbourhoodGraphCutWithoutLoss) {
   std::size_t cut = 0;
   for (const int neighbours : {1, 2, 3}) {
     for (const int least : {1, 5}) {
-      FrontierConfig config{.neighbour_voxels = neighbours, .min_cluster_voxels = least};
+      FrontierConfig config{.linking = FrontierLinking::chebyshev,
+                            .neighbour_voxels = neighbours,
+                            .min_cluster_voxels = least};
       const auto expected = components(map, config);
       std::set<VoxelIndex> expected_voxels;
       for (const auto& one : expected) expected_voxels.insert(one.begin(), one.end());
@@ -139,6 +144,38 @@ TEST(Frontier, ClustersAreTheComponentsOfTheNeighbourhoodGraphCutWithoutLoss) {
     }
   }
   EXPECT_GT(cut, 10U);
+}
+
+TEST(Frontier, LinkedAsInTheAuthorsUseOfPclTheClustersArePcls) {
+  const GridGeometry grid(Box3(Vec3(-20, -3, 0), Vec3(20, 3, 6)), 0.2);
+  Random random(3);
+  std::vector<VoxelIndex> voxels;
+  std::vector<Vec3f> centers_m;
+  for (VoxelIndex v = 0; v < grid.voxel_count(); ++v) {
+    if (!random.chance(0.5)) continue;
+    voxels.push_back(v);
+    centers_m.push_back(grid.center_m(grid.key_at(v)).cast<float>());
+  }
+  const auto clusters_by = [&](FrontierLinking linking, int max_voxels) {
+    FrontierMarks marks(grid.voxel_count());
+    std::set<std::set<VoxelIndex>> clusters;
+    const FrontierConfig config = {.linking = linking, .max_cluster_voxels = max_voxels};
+    for (const FrontierCluster& one : cluster_frontiers(config, grid, voxels, marks)) {
+      clusters.emplace(one.voxels.begin(), one.voxels.end());
+    }
+    return clusters;
+  };
+  for (const int max_voxels : {20, 1000}) {
+    std::set<std::set<VoxelIndex>> expected;
+    for (const std::vector<int>& one : pcl_clusters(centers_m, 0.2, 5, max_voxels)) {
+      std::set<VoxelIndex> cluster;
+      for (const int i : one) cluster.insert(voxels[static_cast<std::size_t>(i)]);
+      expected.insert(std::move(cluster));
+    }
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_EQ(clusters_by(FrontierLinking::pcl, max_voxels), expected);
+    EXPECT_NE(clusters_by(FrontierLinking::face, max_voxels), expected) << "not all faces join";
+  }
 }
 
 }  // namespace

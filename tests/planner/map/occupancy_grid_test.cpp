@@ -34,6 +34,8 @@ ScanUpdate random_update(Random& random) {
 TEST(OccupancyGrid, AfterAnyScansInAnyOrderOfVoxelsAVoxelIsWhatItsLogOddsSay) {
   OccupancyGrid grid(OccupancyConfig{}, kBox_m);
   OccupancyGrid backward = grid;
+  const Box3 object_m(Vec3(-0.5, -1, 0.3), Vec3(1, 0.6, 2));
+  OccupancyGrid bounded(OccupancyConfig{}, kBox_m, object_m);
   ASSERT_EQ(grid.geometry().voxel_count(), kVoxels);
   const float lowest = log_odds(OccupancyConfig{}.clamp_min);
   const float highest = log_odds(OccupancyConfig{}.clamp_max);
@@ -42,7 +44,7 @@ TEST(OccupancyGrid, AfterAnyScansInAnyOrderOfVoxelsAVoxelIsWhatItsLogOddsSay) {
   std::array<int, 5> seen{};  // by state, and at the bounds
   std::vector<bool> is_measured(kVoxels);
   for (int scan = 0; scan <= 40; ++scan) {
-    double sum_nat = 0.0;
+    double sum_nat = 0.0, object_nat = 0.0;
     std::size_t occupied = 0;
     for (VoxelIndex v = 0; v < kVoxels; ++v) {
       const double p = probability(grid, v);
@@ -59,19 +61,29 @@ TEST(OccupancyGrid, AfterAnyScansInAnyOrderOfVoxelsAVoxelIsWhatItsLogOddsSay) {
       ASSERT_NEAR(grid.entropy_nat(v), entropy_nat, 1e-7);  // float32
       ASSERT_EQ(grid.words()[v] == grid.settled_word(), odds == lowest) << v;
       sum_nat += entropy_nat;
+      const Vec3 center_m = grid.geometry().center_m(grid.geometry().key_at(v));
+      const bool is_counted = object_m.contains(center_m);
+      object_nat += is_counted ? entropy_nat : 0.0;
+      ASSERT_EQ(bounded.is_counted(v), is_counted);
+      ASSERT_EQ(bounded.entropy_nat(v), is_counted ? grid.entropy_nat(v) : 0.0F);
+      ASSERT_EQ(bounded.state(v), grid.state(v));
+      ASSERT_EQ(bounded.is_measured(v), is_measured[v]);
       occupied += state == VoxelState::occupied ? 1 : 0;
       ++seen[static_cast<std::size_t>(state)];
       if (is_clamped) ++seen[odds == lowest ? 3 : 4];
     }
     // each voxel is rounded to 2^-32 nat, so at most half of it off; and float64 sums below 350
     ASSERT_NEAR(grid.total_entropy_nat(), sum_nat, kVoxels * 0x1p-33 + 1e-10);
+    ASSERT_NEAR(bounded.total_entropy_nat(), object_nat, kVoxels * 0x1p-33 + 1e-10);
     ASSERT_EQ(grid.occupied_count(), occupied);
+    ASSERT_EQ(bounded.occupied_count(), occupied);
     ASSERT_EQ(grid.total_entropy_nat(), backward.total_entropy_nat());
     ScanUpdate update = random_update(random);
     for (const auto& touched : {update.free, update.occupied}) {
       for (const VoxelIndex v : touched) is_measured[v] = true;
     }
     grid.apply(update);
+    bounded.apply(update);
     std::ranges::reverse(update.free);
     std::ranges::reverse(update.occupied);
     backward.apply(update);

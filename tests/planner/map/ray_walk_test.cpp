@@ -223,14 +223,16 @@ TEST_P(FrameRaysAt, EqualRaysOfBitForBitAtEveryWidth) {
       frame.depth_m.front() = static_cast<float>(range_max_m);
       frame.depth_m.back() = 0.3F;
       const double floor_z_m = frame.T_world_camera.translation().z() - 0.5;
-      const std::vector<ScanRay> expected = rays_of(frame, camera, floor_z_m);
-      compute_frame_rays(frame, camera, floor_z_m, rays);
-      ASSERT_EQ(rays.end_m[0].size(), frame.depth_m.size());
-      const std::vector<ScanRay> each = compact(rays);
-      ASSERT_EQ(each.size(), expected.size());
-      for (std::size_t i = 0; i < each.size(); ++i) {
-        expect_same_bits(each[i].end_world_m, expected[i].end_world_m);
-        ASSERT_EQ(each[i].hit, expected[i].hit);
+      for (const NoReturn no_return : {NoReturn::free, NoReturn::unknown}) {
+        const std::vector<ScanRay> expected = rays_of(frame, camera, floor_z_m, no_return);
+        compute_frame_rays(frame, camera, floor_z_m, rays, no_return);
+        ASSERT_EQ(rays.end_m[0].size(), frame.depth_m.size());
+        const std::vector<ScanRay> each = compact(rays);
+        ASSERT_EQ(each.size(), expected.size());
+        for (std::size_t i = 0; i < each.size(); ++i) {
+          expect_same_bits(each[i].end_world_m, expected[i].end_world_m);
+          ASSERT_EQ(each[i].hit, expected[i].hit);
+        }
       }
       expect_same_bits(rays.origin_world_m,
                        Vec3f(frame.T_world_camera.translation().cast<float>()));

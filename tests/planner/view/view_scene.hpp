@@ -17,11 +17,12 @@ inline double scene_draw(std::uint64_t frame, std::uint64_t index) {
 /// points, predictions, and shadows behind a wall of hits. Of one half most has been looked at so
 /// often that it is settled.
 struct RandomScene {
-  OccupancyGrid grid{OccupancyConfig{}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5))};
+  Box3 object_bounds_m;
+  OccupancyGrid grid{OccupancyConfig{}, Box3(Vec3(-5, -5, 0), Vec3(5, 5, 5)), object_bounds_m};
   SurfaceCloud cloud{CloudConfig{}, grid.geometry()};
   ShadowBand shadow{ShadowConfig{}, grid.geometry()};
 
-  RandomScene() {
+  explicit RandomScene(const Box3& object_m = kEverywhere_m) : object_bounds_m(object_m) {
     for (std::uint64_t scan = 0; scan < 4; ++scan) {
       ScanUpdate update;
       for (VoxelIndex v = 0; v < grid.geometry().voxel_count(); ++v) {

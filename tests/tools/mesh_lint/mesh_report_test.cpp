@@ -119,6 +119,18 @@ TEST_F(Report, ASoundMeshHasOnlyGoodFindings) {
   EXPECT_TRUE(says(finding(report, "floor").what, "14.4 %")) << finding(report, "floor").what;
 }
 
+TEST_F(Report, ACameraThatClearsThroughSurfaceIsWarnedOfAndTheFlagPutsItRight) {
+  const std::string deep = "cameras.0.return_max_m=5";
+  const Finding found = finding(of(tower({-2, -3, 0}), {deep}), "returns");
+  EXPECT_EQ(found.severity, Severity::warning);
+  EXPECT_TRUE(says(found.what, "from 5 to 8 m")) << found.what;
+  EXPECT_EQ(found.fix, "--set planner.map.no_return=unknown");
+  for (const Finding& f :
+       of(tower({-2, -3, 0}), {deep, "planner.map.no_return=unknown"}).findings) {
+    EXPECT_NE(f.check, "returns");
+  }
+}
+
 TriangleMesh lying(TriangleMesh mesh) {
   for (Vec3f& v : mesh.vertices_m) v = {v.x(), v.z(), -v.y()};  // y up
   return mesh;

@@ -148,6 +148,9 @@ TEST(AutoBounds, WhatTheUserSaysWinsAndWhatDoesNotFitIsRefusedByItsOwnName) {
   EXPECT_EQ(room.workspace_m.max(), Vec3(9, 9, 40));
   EXPECT_TRUE(room.workspace_m.contains(room.start.pose.p_world_m));
   EXPECT_GT(room.start.pose.p_world_m.z(), 26.0);
+  EXPECT_TRUE(room.planner.object_bounds_m.contains(room.workspace_m));
+  EXPECT_EQ(resolved({"planner.object_bounds_m.max=[9, 9, 8]"}).planner.object_bounds_m.max(),
+            Vec3(9, 9, 8));
   const std::string fault = test::fault_of([&] { resolved({narrow, far}); });
   EXPECT_TRUE(test::says(fault, {"--set start.position_m"}));
 }

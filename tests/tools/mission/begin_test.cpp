@@ -111,7 +111,7 @@ TEST(Reference, OfNothingToMeasureIsRefused) {
     EXPECT_THROW(reference_of(scenario, world, scene, 2), BadInput);
   }
   const RayScene scene(high);
-  EXPECT_FALSE(reference_of(scenario, high, scene, 2).outside[0].empty());
+  EXPECT_FALSE(reference_of(scenario, high, scene, 2).counted[0].empty());
 }
 
 }  // namespace

@@ -20,14 +20,14 @@ namespace {
 
 PictureOptions asked() { return {.iteration = kAsked}; }
 
-const Plan& planned() { return watched().plans[kAsked - 1]; }
+const Plan& planned() { return watched().plans.at(kAsked); }
 const OccupancyGrid& grid_before() { return watched().beliefs[kAsked - 1].grid; }
 
 /// A run's file with other candidates for the decision that is asked for.
 void write_candidates(const Plan& of_asked, const std::filesystem::path& folder) {
   CandidatesFile file(folder, 1);
-  for (std::size_t i = 0; i < watched().plans.size(); ++i) {
-    file.write(i + 1, i + 1 == kAsked ? of_asked : watched().plans[i]);
+  for (const auto& [iteration, plan] : watched().plans) {
+    file.write(iteration, iteration == kAsked ? of_asked : plan);
   }
   file.finish();
 }
@@ -201,6 +201,44 @@ TEST(CandidatesPicture, TheLegendNamesWhatIsThereAndNothingElse) {
   }
 }
 
+/// Each view of a burst has the picture of the decision, in which they are numbered in the order of
+/// their flight, and the points are told apart that they see.
+TEST(CandidatesPicture, ShowsABurst) {
+  const Flown& flown = watched_bursts().flown;
+  const std::vector<ViewRecord>& views = flown.result.views;
+  const auto later = std::ranges::find_if(
+      views, [](const ViewRecord& view) { return view.decision.plan_view == 2; });
+  ASSERT_NE(later, views.end());
+  const Plan& burst = watched_bursts().plan_of(static_cast<std::size_t>(later->iteration));
+  RunSource run{RunRecord{.folder = {}, .scenario = flown.scenario, .views = views}, flown.world};
+  for (const ViewRecord& view : {*(later - 1), *later}) {
+    const PictureOptions options{.iteration = view.iteration};
+    const Picture picture = kCandidatesPicture.draw(run, options, {});
+    EXPECT_NE(picture.detail.find(fmt::format(
+                  "(iteration {}) was chosen: view {} of {} of the burst planned at view {}, ",
+                  view.iteration, view.decision.plan_view, burst.chosen.size(), later->iteration)),
+              std::string::npos)
+        << picture.detail;
+    for (std::size_t i = 0; i < burst.views.size(); ++i) {
+      const Vec3& p_m = burst.views[i].view.p_world_m;
+      EXPECT_TRUE(std::ranges::any_of(picture.panels[0].labels, [&](const PlaceLabel& label) {
+        return label.text == std::to_string(i + 1) && label.p_world_m == p_m;
+      }));
+    }
+    RenderScene scene;
+    const ReplayedDecision& decision = run.decision(static_cast<std::size_t>(view.iteration));
+    const Covered covered = add_points_to_cover(flown.scenario, decision, 0.1, scene);
+    // each point is covered by one view at the most: by the first that sees it
+    int by_views = 0;
+    for (const std::size_t kept : burst.chosen) by_views += *burst.candidates[kept].covers;
+    EXPECT_EQ(covered.covered, static_cast<std::size_t>(by_views));
+    EXPECT_GT(covered.covered, 0U);
+    std::size_t dots = 0;
+    for (const DotsItem& item : scene.dots) dots += item.points_m.size();
+    EXPECT_EQ(dots, covered.points);
+  }
+}
+
 /// Whatever side of what the map knows the candidates are on, no direction around shows more.
 TEST(CandidatesPicture, IsSeenFromWhereTheMostCandidatesShow) {
   const Box3 structure_m = bounds_m(watched().flown.world.structure);
@@ -315,13 +353,17 @@ TEST(Frontiers, TheChosenClusterStandsOutAndNumbersAreWhereTheirClustersShow) {
   ASSERT_GE(found.size(), 2U);
   ReplayedDecision decision{.belief = belief, .plan = {}};
   decision.plan.chosen = {0};
+  decision.plan.frontier = voxels_of(found);
   for (const std::size_t first : {std::size_t{0}, found.size() - 1}) {
     decision.plan.clusters = {found[first]};  // the others may not be tried
     decision.plan.candidates = {{.view = {}, .sampler = Sampler::fvs, .cluster = 0}};
     Panel panel;
-    add_frontiers(config, decision, 0.1, {}, panel);
-    EXPECT_EQ(panel.scene.surfaces.size(), found.size());
+    add_frontiers(decision, 0.1, {}, panel);
+    std::size_t faces = 0;
+    for (const SurfaceItem& cubes : panel.scene.surfaces) faces += cubes.mesh.faces.size();
+    EXPECT_EQ(faces, 12U * decision.plan.frontier.size());
     const SurfaceItem& chosen = panel.scene.surfaces.front();
+    EXPECT_EQ(chosen.mesh.faces.size(), 12U * found[first].voxels.size());
     EXPECT_EQ(chosen.vertex_colours.front(), looks::kLookedAt.rgb());
     Box3 cube_m;  // the map's own cubes may fill their voxels, and do not hide it
     for (std::size_t i = 0; i < 24; ++i) cube_m.extend(chosen.mesh.vertices_m[i].cast<double>());
@@ -333,7 +375,7 @@ TEST(Frontiers, TheChosenClusterStandsOutAndNumbersAreWhereTheirClustersShow) {
   for (const Vec3& from : {Vec3(0.01, 0, 1), Vec3(1, 0, 0.2), Vec3(-1, 0, 0.2), Vec3(0, 1, 0.2)}) {
     const RenderView view = view_along(belief.grid, from);
     Panel panel;
-    add_frontiers(config, decision, 0.1, view, panel);
+    add_frontiers(decision, 0.1, view, panel);
     const auto in_sight = static_cast<std::size_t>(
         std::count_if(found.begin(), found.end(), [&](const FrontierCluster& cluster) {
           return shows(view, belief.grid, cluster.centroid_world_m,

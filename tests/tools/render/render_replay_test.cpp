@@ -48,7 +48,7 @@ TEST(Replay, BelievesAndPlansInOneFlightWhatTheMissionDid) {
   EXPECT_TRUE(same_belief(*all.belief, watched().beliefs[kAsked + 1]));
   EXPECT_TRUE(same_belief(all.decision->belief, watched().beliefs[kAsked - 1]));
   EXPECT_FALSE(same_belief(watched().beliefs[kAsked - 1], watched().beliefs[kAsked]));
-  EXPECT_TRUE(same_plan(all.decision->plan, watched().plans[kAsked - 1]));  // the start is none
+  EXPECT_TRUE(same_plan(all.decision->plan, watched().plans.at(kAsked)));  // the start is none
   const std::vector<std::size_t> waypoints = {1};
   const auto alone = replay_profile(watched().recorded(), waypoints);
   ASSERT_EQ(all.profile.size(), alone.size());
@@ -112,7 +112,7 @@ TEST(Replay, ProfileNeedsNoViewsEvenOfAnOracle) {
 
 void write_candidates(const Watched& of, const std::filesystem::path& folder) {
   CandidatesFile file(folder, 1);
-  for (std::size_t i = 0; i < of.plans.size(); ++i) file.write(i + 1, of.plans[i]);
+  for (const auto& [iteration, plan] : of.plans) file.write(iteration, plan);
   file.finish();
 }
 
@@ -131,25 +131,43 @@ TEST(CandidatesRecord, DamageIsNamed) {
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
 }
 
-TEST(RunSource, ADecisionThatIsReadHasTheClustersThatItTried) {
-  const Watched stuck(
-      smoke({"planner.termination.max_iterations=5", "planner.fvs.order=largest",
-             "planner.fvs.entropy_threshold_nat=1", "planner.fvs.entropy_window=1"}));
+/// A decision that is read, or planned again where the run kept no candidates, has the clusters
+/// that it tried: of bursts those that were not tried before. Any view of a burst has that of its
+/// first.
+void expect_clusters(const Watched& stuck, bool has_candidates) {
   const TempFolder temp;
-  write_candidates(stuck, temp.path());
+  if (has_candidates) write_candidates(stuck, temp.path());
   const Flown& flown = stuck.flown;
   std::size_t compared = 0;
   for (std::size_t i = 1; i < flown.result.views.size(); ++i) {
-    const std::vector<FrontierCluster>& tried = stuck.plans[i - 1].clusters;
-    if (tried.empty()) continue;  // its grid was asked alone
+    const Plan& made = stuck.plan_of(i);
+    if (made.clusters.empty()) continue;  // its grid was asked alone
     RunSource run{{.folder = temp.path(), .scenario = flown.scenario, .views = flown.result.views},
                   flown.world};
-    const std::vector<FrontierCluster>& found = run.decision(i).plan.clusters;
-    ASSERT_EQ(found.size(), tried.size());
-    for (std::size_t k = 0; k < tried.size(); ++k) EXPECT_EQ(found[k].voxels, tried[k].voxels);
-    compared += tried.size();
+    const ReplayedDecision& again = run.decision(i);
+    EXPECT_EQ(again.plan.chosen, made.chosen);
+    EXPECT_EQ(again.plan.frontier, made.frontier);
+    EXPECT_EQ(again.belief.grid.total_entropy_nat(),
+              flown.result.views[flown.result.views[i].planned_at() - 1].entropy_nat);
+    ASSERT_EQ(again.plan.clusters.size(), made.clusters.size());
+    for (std::size_t k = 0; k < made.clusters.size(); ++k) {
+      EXPECT_EQ(again.plan.clusters[k].voxels, made.clusters[k].voxels);
+    }
+    compared += made.clusters.size();
   }
   EXPECT_GT(compared, 1U);
+}
+
+TEST(RunSource, ADecisionHasTheClustersThatItTried) {
+  expect_clusters(Watched(smoke({"planner.termination.max_iterations=5", "planner.fvs.mode=single",
+                                 "planner.fvs.order=largest", "planner.fvs.entropy_threshold_nat=1",
+                                 "planner.fvs.entropy_window=1"})),
+                  true);
+  const Watched& bursts = watched_bursts();
+  const std::vector<ViewRecord>& views = bursts.flown.result.views;
+  EXPECT_TRUE(std::ranges::any_of(
+      views, [](const ViewRecord& view) { return view.decision.plan_view > 1; }));
+  for (const bool has_candidates : {true, false}) expect_clusters(bursts, has_candidates);
 }
 
 /// And the picture shows all of each, though cubes stick out of the structure.

@@ -1,6 +1,8 @@
 // A mission that is drawn by flying it again, beside what happened when it was flown.
 #pragma once
 
+#include <map>
+
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
 #include "tools/mission/replay.hpp"
@@ -11,13 +13,13 @@ namespace gnbv {
 /// The iteration that is asked for.
 constexpr std::size_t kAsked = 3;
 
-/// A mission of five views, with what was believed and planned on the way.
+/// A mission of five views, each decided by itself, with what was believed and planned on the way.
 struct Watched {
   explicit Watched(const Scenario& scenario) : flown(scenario, inputs()) {}
 
   MissionInputs inputs() {
     watch.view = [this](const ViewRecord&, const Belief& belief) { beliefs.push_back(belief); };
-    watch.plan = [this](std::size_t, const Plan& plan) { plans.push_back(plan); };
+    watch.plan = [this](std::size_t iteration, const Plan& plan) { plans[iteration] = plan; };
     return {.observers = {&watch}};
   }
   RecordedMission recorded() const {
@@ -28,14 +30,28 @@ struct Watched {
             .threads = 2};
   }
 
+  /// That chose the view.
+  const Plan& plan_of(std::size_t view) const {
+    return plans.at(flown.result.views[view].planned_at());
+  }
+
   Watch watch = {};
   std::vector<Belief> beliefs = {};
-  std::vector<Plan> plans = {};
+  std::map<std::size_t, Plan> plans = {};  // by the iteration of the first view of each
   Flown flown;
 };
 
 inline const Watched& watched() {
-  static const Watched all(smoke({"planner.termination.max_iterations=5"}));
+  static const Watched all(
+      smoke({"planner.termination.max_iterations=5", "planner.fvs.mode=single"}));
+  return all;
+}
+
+/// A mission that goes over to bursts as soon as it may.
+inline const Watched& watched_bursts() {
+  static const Watched all(
+      smoke({"planner.termination.max_iterations=8", "planner.fvs.mode=burst",
+             "planner.fvs.entropy_threshold_nat=1", "planner.fvs.entropy_window=1"}));
   return all;
 }
 

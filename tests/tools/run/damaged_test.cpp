@@ -103,7 +103,7 @@ const std::vector<Damage> kDamages = {
     {kTrajectoryFile, kPath, "", ": holds no pose"},
     {kCandidatesFile, "collision", "unlucky", ":1: rejected: no such reason"},
     {kCandidatesFile, "fvs", "luck", ":1: sampler: no sampler is named luck"},
-    {kCandidatesFile, "2,\"rej", "-2,\"rej", ":1: cluster: is no number of one"},
+    {kCandidatesFile, "2,\"rej", "-2,\"rej", ":1: cluster: is no whole number from 0 on"},
     {kCandidatesFile, "\"yaw_rad\":0,", "", ":1: key 'yaw_rad' not found; `gnbv run"},
     {kBeliefsFile, "2}", "2,\"unknown\":[0,101]}", ":2: runs end beyond the 100 voxels"},
     {kBeliefsFile, "2}", "2,\"frontier\":[99,18446744073709551615]}", ":2: runs end beyond"},

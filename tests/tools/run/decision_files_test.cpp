@@ -16,6 +16,42 @@ namespace fs = std::filesystem;
 using test::fault_of;
 using test::says;
 
+/// Two views of it are kept; one that is valid is not, and one sees nothing.
+Plan made_burst() {
+  Plan burst;
+  burst.candidates.assign(5, {.view = {Vec3(1, 2, 3), 0.5}, .sampler = Sampler::fvs, .cluster = 0});
+  burst.candidates[0].rejected = Rejection::collision;
+  burst.candidates[1].covers = 4;
+  burst.candidates[2].covers = 3;
+  burst.candidates[3].covers = 2;
+  burst.candidates[3].score.value = 0.25;
+  burst.candidates[4].covers = 0;
+  burst.candidates[4].rejected = Rejection::cluster_hidden;
+  burst.chosen = {1, 3};
+  return burst;
+}
+
+/// A run that was killed between two views of a burst has all that told of its decision.
+TEST(CandidatesFile, GoesOnWithinABurstAndAtItsEnd) {
+  TempFolder temp;
+  const fs::path part = part_of(temp.path() / kCandidatesFile);
+  CandidatesFile(temp.path(), 1).write(4, made_burst());  // chose views 4 and 5
+  const std::string text = read_file(part);
+  for (const std::size_t flown : {5U, 6U}) {
+    CandidatesFile(temp.path(), flown);
+    EXPECT_EQ(read_file(part), text) << flown;
+  }
+  EXPECT_TRUE(says(fault_of([&] { CandidatesFile(temp.path(), 7); }),
+                   {"holds no candidates of iteration 6, which was flown"}));
+}
+
+TEST(CandidatesFile, OfAnOracleStaysEmpty) {
+  TempFolder temp;
+  CandidatesFile(temp.path(), 1);
+  EXPECT_NO_THROW(CandidatesFile(temp.path(), 7));
+  EXPECT_EQ(read_file(part_of(temp.path() / kCandidatesFile)), "");
+}
+
 TEST(RoundTrip, CandidatesJsonl) {
   TempFolder temp;
   Plan plan;
@@ -36,6 +72,8 @@ TEST(RoundTrip, CandidatesJsonl) {
   file.write(1, plan);
   plan.chosen.clear();
   file.write(2, plan);
+  const Plan burst = made_burst();
+  file.write(3, burst);
   file.finish();
   const std::string text = read_file(temp.path() / kCandidatesFile);
   // the text of a number is the shortest that reads back as it: equal texts are equal numbers
@@ -48,6 +86,13 @@ TEST(RoundTrip, CandidatesJsonl) {
     EXPECT_EQ(read->candidates[1].rejected, Rejection::cluster_hidden);
     copy.write(iteration, *read);
   }
+  const std::optional<Plan> read = read_candidates(temp.path(), 3);
+  EXPECT_EQ(read->chosen, burst.chosen);
+  for (std::size_t i = 0; i < burst.candidates.size(); ++i) {
+    EXPECT_EQ(read->candidates.at(i).covers, burst.candidates[i].covers) << i;
+  }
+  EXPECT_EQ(read->candidates[3].score.value, 0.25);
+  copy.write(3, *read);
   copy.finish();
   EXPECT_EQ(read_file(again.path() / kCandidatesFile), text);
   write_file_atomically(part_of(temp.path() / kCandidatesFile), "{\"iteration\":1}\nno\n");

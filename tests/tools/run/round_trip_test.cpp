@@ -62,8 +62,18 @@ TEST(RoundTrip, IterationsCsv) {
   EXPECT_EQ(read[0].decision.sampler, Sampler::start);
   ViewRecord turned = odd_view(0);
   turned.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
-  write_file_atomically(csv, iterations_csv(std::vector{turned}, Columns::with_gimbal));
+  write_file_atomically(csv, iterations_csv(std::vector{turned}, Columns{.gimbal = true}));
   EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
+  // the second view of a burst: what tells of its decision tells of the first
+  std::vector<ViewRecord> burst = {odd_view(0), odd_view(1), odd_view(2)};
+  const std::string decided_alone = views_sha256(burst);
+  burst[2].decision.plan_view = 2;
+  EXPECT_NE(views_sha256(burst), decided_alone);
+  write_file_atomically(csv, iterations_csv(burst, Columns{.plans = true}));
+  EXPECT_EQ(read_view_records(csv).at(2).planned_at(), 1U);
+  burst[2].decision.plan_view = 3;  // the start is no view of a plan
+  write_file_atomically(csv, iterations_csv(burst, Columns{.plans = true}));
+  EXPECT_TRUE(says(fault_of([&] { read_view_records(csv); }), {"iterations.csv:4: ", "view 3"}));
 }
 
 TEST(RoundTrip, CoverageCsv) {
@@ -161,6 +171,7 @@ struct MadeMission {
     result.entropy_after_profile_nat = result.belief.grid.total_entropy_nat() + 0.5;
     score.profile = {0.1, 0.2, 0.3};
     score.final = {0.4, 0.5, 2.0 / 3.0};
+    score.area_samples = 1234;
     score.profile_raw = {0.01, 0.02, 0.03};
     score.final_raw = {0.04, 0.05, 0.06};
     score.distances.at[1] = {.distance_m = 0.05, .precision = 1.0 / 3.0, .recall = 0.7, .f = 0.45};
@@ -206,6 +217,7 @@ TEST(RoundTrip, RunDirectory) {
                   f.density.mean_points, f.wall_s}),
       (std::array{0.5, 1e-9, 2.0 / 3.0, 1.0 / 3.0, 2.0 / 7.0, 0.1 + 0.2, 1e20, 5e-324, 2.0 / 3.0,
                   1.0 / 3.0, 0.7, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 10.0 / 3.0, 61.5}));
+  EXPECT_EQ(f.area_samples, 1234U);
   EXPECT_EQ(f.coverage_final, made.score.final);
   EXPECT_EQ(f.coverage_profile, made.score.profile);
   EXPECT_EQ(f.coverage_final_raw, made.score.final_raw);
@@ -223,6 +235,9 @@ TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {
   made.score.final[0] = 0.123;
   rescore_summary(run, made.score);
   EXPECT_EQ(read_run_figures(run).coverage_final[0], 0.123);
+  made.score.area_samples = 0;
+  rescore_summary(run, made.score);
+  EXPECT_EQ(read_run_figures(run).area_samples, 0U);
   EXPECT_EQ(read_run_figures(run).energy_wh, 5e-324);
 }
 

@@ -17,7 +17,7 @@ from gnbv._program import call
 
 Array = npt.NDArray[Any]
 _TEXT = {"sampler", "via"}
-_COUNTS = {"iteration", "candidates", "valid", "cloud_points", "view"}
+_COUNTS = {"iteration", "candidates", "valid", "cloud_points", "view", "plan_view"}
 MAP_DTYPE = np.dtype(
     [("x_m", "f8"), ("y_m", "f8"), ("z_m", "f8"), ("size_m", "f8"), ("log_odds", "f4")]
 )
@@ -85,7 +85,7 @@ class Run:
 
     @property
     def final_coverage(self) -> float:
-        """Share of the voxels of 0.05 m with surface seen from outside that the cloud covers."""
+        """Share of the voxels of 0.05 m that the score counts which the cloud covers."""
         return float(self.summary["coverage"]["final"]["0.05"])
 
     @property
