@@ -26,9 +26,10 @@ def gnbv(*arguments) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture(scope="session")
 def run(tmp_path_factory) -> Path:
-    """A mission of `smoke` that kept its frames."""
+    """A mission of `smoke` that kept its frames, of views between which it turns little."""
     folder = tmp_path_factory.mktemp("runs") / "run"
-    flown = gnbv("run", "smoke", "--quiet", "--frames", "--out", folder)
+    flown = gnbv("run", "smoke", "--quiet", "--frames", "--set", "planner.fvs.mode=single", "--out",
+                 folder)
     assert flown.returncode == 0, flown.stderr
     return folder
 
