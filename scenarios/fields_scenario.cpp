@@ -58,6 +58,12 @@ void fields(const Keys& key, ScoreConfig& c) {
   key("sizes_m", c.sizes_m, {0.01, 10},
       "Edges of the voxels of which coverage is shown; the paper's 0.05, 0.10 and 0.50 are always "
       "measured.");
+  key("budget_views", c.budget_views, {1, 1e6},
+      "Mean coverage is over this many views, whatever a mission flew; what is reached later "
+      "counts "
+      "as not reached.");
+  key("budget_m", c.budget_m, positive(1e6), "The same in metres from the first view on.");
+  key("budget_s", c.budget_s, positive(1e7), "The same in seconds from the end of the profile on.");
 }
 
 void fields(const Keys& key, StartConfig& c) {

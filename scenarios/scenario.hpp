@@ -64,6 +64,10 @@ struct ScoreConfig {
   int area_samples = 155000;  // 120 thousand voxels of 0.05 m on the lifted a340.obj
   Box3 region_m = Box3(Vec3::Constant(-1e4), Vec3::Constant(1e4));
   std::vector<double> sizes_m = {0.05, 0.10, 0.50};  // the paper's are measured in any case
+  // what mean coverage and efforts are judged over: of all planners the same
+  int budget_views = 635;
+  double budget_m = 600.0;
+  double budget_s = 1200.0;
 };
 
 /// Where the authors' code begins its views: uav_pose_0 to 3 of its settings (e45ff3f), and what an

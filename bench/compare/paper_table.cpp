@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <cstdlib>
 #include <map>
 #include <set>
-#include <utility>
 
-#include "bench/score/run_figures.hpp"
+#include "bench/compare/paper_groups.hpp"
+#include "bench/compare/statistics.hpp"
 #include "bench/score/surface_reference.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
@@ -20,81 +18,13 @@ namespace {
 
 using Row = std::vector<TableCell>;
 
-constexpr const char* kCut = "ours, cut";
-constexpr const char* kPlace = "ours below";
+constexpr const char* kCutRow = "ours, cut";
+constexpr const char* kPlaceRow = "ours below";
 constexpr const char* kCutNote = "ours, cut: after as many views as the paper's row";
-
-/// Runs that differ in their seeds alone.
-using Seeds = std::vector<const RunFigures*>;
-
-/// What a mission had reached, or the paper prints, by the keys of columns. What is not known is
-/// not there.
-using Reached = std::map<std::string, double>;
-
-std::string coverage_key(double size_m) { return "coverage_" + size_name(size_m); }
-
-/// After so many views, or at its end if that was before. Of entropy and density only the end is
-/// known.
-Reached after_views(const RunFigures& run, std::size_t views) {
-  const CoverageCurve& curve = run.curve;
-  const bool is_cut = curve.views() > views;
-  Reached reached = {{"iterations", is_cut ? static_cast<double>(views) : run.iterations},
-                     {"distance_m", is_cut ? curve.metres[views] : run.straight_m}};
-  if (curve.seconds.size() > 1) {
-    reached["time_min"] = seconds_of_views(curve, std::min(views, curve.views())) / 60.0;
-  }
-  for (std::size_t i = 0; i < kCoverageSizes_m.size(); ++i) {
-    reached[coverage_key(kCoverageSizes_m[i])] =
-        is_cut ? curve.coverage[views][i] : run.coverage_final[i];
-  }
-  for (const SizedCoverage& at : run.more) {
-    reached[coverage_key(at.size_m)] = views < at.curve.size() ? at.curve[views] : at.final;
-  }
-  return reached;
-}
-
-Reached at_end(const RunFigures& run) {
-  Reached reached = after_views(run, std::numeric_limits<std::size_t>::max());
-  reached["entropy_reduction"] = run.entropy_reduction_nat;
-  reached["density_points_per_voxel"] = run.density_points_per_voxel;
-  return reached;
-}
-
-Reached after_profile(const RunFigures& run) {
-  Reached reached = {{"distance_m", run.before.profile_m}};
-  for (std::size_t i = 0; i < kCoverageSizes_m.size(); ++i) {
-    reached[coverage_key(kCoverageSizes_m[i])] = run.coverage_profile[i];
-  }
-  for (const SizedCoverage& at : run.more) reached[coverage_key(at.size_m)] = at.profile;
-  return reached;
-}
-
-/// Coverage by the paper's sizes, as fractions of `whole`.
-Reached covered(const std::array<double, 3>& coverage, double whole = 1.0) {
-  Reached reached;
-  for (std::size_t i = 0; i < coverage.size(); ++i) {
-    reached[coverage_key(kCoverageSizes_m[i])] = coverage[i] / whole;
-  }
-  return reached;
-}
-
-Reached printed_in(const PaperRow& row) {
-  Reached printed;
-  if (row.coverage_percent) printed = covered(*row.coverage_percent, 100.0);
-  const auto add = [&](const char* key, const auto& value) {
-    if (value) printed[key] = *value;
-  };
-  add("iterations", row.iterations);
-  add("entropy_reduction", row.entropy_reduction);
-  add("distance_m", row.distance_m);
-  add("time_min", row.time_min);
-  add("density_points_per_voxel", row.density_points_per_voxel);
-  return printed;
-}
 
 /// The columns, with one for each size beside the paper's that some of the runs have, and without
 /// those of some keys.
-std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
+std::vector<TableColumn> columns_of(std::span<const MissionRow> missions,
                                     const std::set<std::string>& without) {
   constexpr auto estimate = ColumnKind::estimate;
   std::vector<TableColumn> columns = {{"Utility", "utility"},
@@ -104,15 +34,17 @@ std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
                                       {"Entropy reduction", "entropy_reduction", estimate},
                                       {"Distance (m)", "distance_m", estimate, 1},
                                       {"Time (min)", "time_min", estimate, 1}};
-  std::set<double> more_m;
-  for (const RunFigures& run : runs) {
-    for (const SizedCoverage& at : run.more) more_m.insert(at.size_m);
+  std::vector<std::string> sizes;
+  for (const double size_m : kCoverageSizes_m) sizes.push_back(size_name(size_m));
+  std::map<double, std::string> more;
+  for (const MissionRow& mission : missions) {
+    for (const auto& [size, figure] : with_prefix(mission.figures, "coverage_")) {
+      if (std::ranges::count(sizes, size) == 0) more[std::strtod(size.c_str(), nullptr)] = size;
+    }
   }
-  std::vector<double> sizes_m(kCoverageSizes_m.begin(), kCoverageSizes_m.end());
-  sizes_m.insert(sizes_m.end(), more_m.begin(), more_m.end());
-  for (const double size_m : sizes_m) {
-    columns.push_back(
-        {"Coverage " + size_name(size_m) + " m", coverage_key(size_m), estimate, 1, true});
+  for (const auto& [size_m, size] : more) sizes.push_back(size);
+  for (const std::string& size : sizes) {
+    columns.push_back({"Coverage " + size + " m", "coverage_" + size, estimate, 1, true});
   }
   columns.push_back({"Of ceiling", "share_of_ceiling", estimate, 1, true});
   columns.push_back({"Points/voxel", "density_points_per_voxel", estimate});
@@ -121,12 +53,12 @@ std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
 }
 
 /// A row of what all of `reached` know, estimated over them.
-void add_row(const std::string& label, const std::string& kind, const std::vector<Reached>& reached,
+void add_row(const std::string& label, const std::string& kind, const std::vector<Figures>& reached,
              TextTable& table) {
   Row& row = table.rows.emplace_back(Row{{label}, {kind}});
   for (const TableColumn& column : std::span(table.columns).subspan(row.size())) {
     std::vector<double> values;
-    for (const Reached& one : reached) {
+    for (const Figures& one : reached) {
       if (const auto at = one.find(column.key); at != one.end()) values.push_back(at->second);
     }
     const bool is_known = !values.empty() && values.size() == reached.size();
@@ -147,155 +79,52 @@ void add_papers_row(const std::string& label, const PaperRow& row, TextTable& ta
   }
 }
 
-/// With the share of the ceiling, where it is above 0.
-template <typename ReachedOf>
-std::vector<Reached> reached_by(const Seeds& runs, double ceiling, const ReachedOf& reached_of) {
-  std::vector<Reached> all;
-  for (const RunFigures* const run : runs) {
-    Reached& reached = all.emplace_back(reached_of(*run));
-    if (ceiling > 0.0) reached["share_of_ceiling"] = reached["coverage_0.05"] / ceiling;
+/// What each mission had reached by then, with its share of the ceiling; nothing where one was not
+/// cut.
+std::vector<Figures> reached_by(const PaperGroup& group, std::string_view prefix) {
+  std::vector<Figures> all;
+  for (const MissionRow* const mission : group.missions) {
+    Figures figures = with_prefix(mission->figures, prefix);
+    if (figures.empty()) figures = mission->figures;  // it ended before
+    if (prefix == kCut) {
+      for (const char* key : {"entropy_reduction", "density_points_per_voxel"}) figures.erase(key);
+    }
+    const auto ceiling = mission->find("ceiling_0.05");
+    if (ceiling) figures["share_of_ceiling"] = figures["coverage_0.05"] / *ceiling;
+    all.push_back(std::move(figures));
   }
   return all;
 }
 
-/// Runs of one row.
-struct Group {
-  std::string utility;
-  std::string setting;
-  std::string name;  // of the row: "Proposed, leaf_m=0.07"
-  Seeds runs = {};
-};
-
-std::string named(const std::string& name, const std::string& setting) {
-  return setting.empty() ? name : name + ", " + setting;
-}
-
-/// Those of the paper's utilities in its order, then the others in that of their first runs.
-std::vector<Group> groups_of(const PaperTable& paper, std::span<const RunFigures> runs,
-                             std::span<const std::string> settings) {
-  GNBV_CHECK(settings.empty() || settings.size() == runs.size(), "{} settings of {} runs",
-             settings.size(), runs.size());
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::string& utility = runs[i].utility;
-    const std::string setting = settings.empty() ? "" : settings[i];
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
-      return g.utility == utility && g.setting == setting;
-    });
-    if (group == groups.end()) {
-      group = groups.insert(groups.end(),
-                            {utility, setting, named(name_in_table(paper, utility), setting)});
-    }
-    group->runs.push_back(&runs[i]);
-  }
-  const auto place_of = [&](const Group& group) {
-    const PaperRow* const row = find_row(paper, group.utility);
-    return row == nullptr ? std::ssize(paper.rows) : row - paper.rows.data();
-  };
-  std::stable_sort(groups.begin(), groups.end(),
-                   [&](const Group& a, const Group& b) { return place_of(a) < place_of(b); });
-  return groups;
-}
-
-/// What the runs had reached where they stand beside the paper's row: after as many views, or at
-/// the end of those that took fewer; entropy and density at the end.
-std::vector<Reached> reached_beside(const Seeds& runs, const PaperRow& paper) {
-  const auto views = static_cast<std::size_t>(paper.iterations.value_or(0));
-  return reached_by(runs, 0.0, [&](const RunFigures& run) {
-    Reached reached = views > 0 ? after_views(run, views) : Reached{};
-    reached.merge(at_end(run));
-    return reached;
+/// Ours, and ours after as many views as the paper's row took where a mission took more.
+void add_ours(const PaperGroup& group, TextTable& table) {
+  add_row(group.name, "ours", reached_by(group, kAtEnd), table);
+  const bool is_longer = std::ranges::any_of(group.missions, [](const MissionRow* mission) {
+    return !with_prefix(mission->figures, kCut).empty();
   });
+  if (is_longer) add_row(group.name, kCutRow, reached_by(group, kCut), table);
 }
 
-/// Of each figure that the paper prints, the share of our runs that lie below it.
-void add_place(const std::string& name, const Seeds& runs, const PaperRow& paper,
-               TextTable& table) {
-  const std::vector<Reached> ours = reached_beside(runs, paper);
-  Row& row = table.rows.emplace_back(Row{{name}, {kPlace}});
-  const Reached printed = printed_in(paper);
-  for (const TableColumn& column : std::span(table.columns).subspan(row.size())) {
-    TableCell& cell = row.emplace_back();
-    const auto at = printed.find(column.key);
-    if (at == printed.end() || column.key == "iterations") continue;
-    std::vector<double> values;
-    for (const Reached& one : ours) {
-      if (const auto mine = one.find(column.key); mine != one.end()) {
-        values.push_back(mine->second);
-      }
-    }
-    if (values.size() < ours.size()) continue;
-    const double share = share_below(values, at->second);
-    cell = {fmt::format("{:.0f} % below", 100.0 * share), {share}};
-  }
-}
-
-/// "coverage at 0.05 m Proposed > Isler: 31 %, ...", of what the paper prints for each of its
-/// methods: how many sets of single runs, one of each method, have its order.
-std::string order_note(const PaperTable& paper, const std::vector<Group>& groups) {
-  constexpr std::array<std::pair<const char*, const char*>, 3> kOrdered = {
-      {{"coverage_0.05", "coverage at 0.05 m"},
-       {"distance_m", "distance"},
-       {"entropy_reduction", "entropy reduction"}}};
-  std::string note;
-  for (const auto& [key, words] : kOrdered) {
-    std::vector<std::pair<double, const Group*>> printed;
-    for (const Group& group : groups) {
-      const PaperRow* const row = find_row(paper, group.utility);
-      if (row == nullptr || group.runs.size() < 2) continue;
-      const Reached figures = printed_in(*row);
-      if (const auto at = figures.find(key); at != figures.end()) {
-        printed.emplace_back(at->second, &group);
-      }
-    }
-    std::ranges::stable_sort(printed, std::greater{}, &std::pair<double, const Group*>::first);
-    if (printed.size() < 2) continue;
-    std::vector<std::vector<double>> values;
-    std::string order;
-    for (const auto& [figure, group] : printed) {
-      order += (order.empty() ? "" : " > ") + group->name;
-      std::vector<double>& of_group = values.emplace_back();
-      for (const Reached& one : reached_beside(group->runs, *find_row(paper, group->utility))) {
-        of_group.push_back(one.at(key));
-      }
-    }
-    note += fmt::format("{}{} {}: {:.0f} %", note.empty() ? "" : ", ", words, order,
-                        100.0 * share_descending(values));
-  }
-  return note;
-}
-
-/// Ours, and ours after as many views as the paper's row took where a run took more.
-void add_ours(const std::string& name, const Seeds& runs, const PaperRow* paper, double ceiling,
-              TextTable& table) {
-  add_row(name, "ours", reached_by(runs, ceiling, at_end), table);
-  const auto views = static_cast<std::size_t>(paper == nullptr ? 0 : paper->iterations.value_or(0));
-  const bool is_longer = std::any_of(
-      runs.begin(), runs.end(), [&](const RunFigures* run) { return run->curve.views() > views; });
-  if (views == 0 || !is_longer) return;
-  const auto cut = [&](const RunFigures& run) { return after_views(run, views); };
-  add_row(name, kCut, reached_by(runs, ceiling, cut), table);
-}
-
-/// The profile does not depend on the utility: one run a seed. A row a setting, and one for all
+/// The profile does not depend on the method: one mission a seed. A row a setting, and one for all
 /// settings that had the same profiles.
-void add_profiles(const std::vector<Group>& groups, double ceiling, TextTable& table) {
-  std::map<std::string, std::map<std::uint64_t, const RunFigures*>> by_setting;
+void add_profiles(const std::vector<PaperGroup>& groups, TextTable& table) {
+  std::map<std::string, std::map<std::uint64_t, const MissionRow*>> by_setting;
   std::vector<std::string> settings;
-  for (const Group& group : groups) {
+  for (const PaperGroup& group : groups) {
     if (!by_setting.contains(group.setting)) settings.push_back(group.setting);
-    for (const RunFigures* const run : group.runs)
-      by_setting[group.setting].emplace(run->seed, run);
+    for (const MissionRow* const mission : group.missions) {
+      by_setting[group.setting].emplace(mission->seed, mission);
+    }
   }
   const auto first = static_cast<std::ptrdiff_t>(table.rows.size());
   std::vector<std::string> labels;
   for (const std::string& setting : settings) {
-    Seeds runs;
-    for (const auto& [seed, run] : by_setting[setting]) runs.push_back(run);
-    add_row("Profile", "ours", reached_by(runs, ceiling, after_profile), table);
+    PaperGroup profiles;
+    for (const auto& [seed, mission] : by_setting[setting]) profiles.missions.push_back(mission);
+    add_row("Profile", "ours", reached_by(profiles, kProfile), table);
     const auto last = table.rows.end() - 1;
     if (std::find(table.rows.begin() + first, last, *last) == last) {
-      labels.push_back(named("Profile", setting));
+      labels.push_back(setting.empty() ? "Profile" : "Profile, " + setting);
     } else {
       table.rows.pop_back();
     }
@@ -305,15 +134,31 @@ void add_profiles(const std::vector<Group>& groups, double ceiling, TextTable& t
   }
 }
 
-std::string three_percent(const std::array<double, 3>& fractions) {
-  return fmt::format("{:.1f} / {:.1f} / {:.1f} %", 100.0 * fractions[0], 100.0 * fractions[1],
-                     100.0 * fractions[2]);
+/// Of missions whose ceiling a search found.
+void add_ceiling(std::span<const MissionRow> missions, TextTable& table) {
+  const auto known = std::ranges::find_if(missions, [](const MissionRow& mission) {
+    return mission.find("physical_ceiling_0.05").has_value();
+  });
+  if (known == missions.end()) return;
+  const auto add = [&](const char* row, std::string_view prefix) {
+    Figures figures;
+    for (const auto& [size, share] : with_prefix(known->figures, prefix)) {
+      figures["coverage_" + size] = share;
+    }
+    add_row("Ceiling", row, {figures}, table);
+  };
+  add("physical", "physical_ceiling_");
+  add("leaf filter", "ceiling_");
+  table.notes.emplace_back(
+      "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf filter "
+      "can keep, of exact sensors: noise can lift a mission above it; of ceiling: coverage at 0.05 "
+      "m over the latter's");
 }
 
 /// "max_iterations", or "max_iterations (4), collision (1)".
-std::string terminations(const Seeds& runs) {
+std::string terminations(const PaperGroup& group) {
   std::map<std::string, int> counts;
-  for (const RunFigures* run : runs) ++counts[run->termination];
+  for (const MissionRow* const mission : group.missions) ++counts[mission->termination];
   std::string text;
   for (const auto& [name, count] : counts) {
     text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
@@ -324,172 +169,168 @@ std::string terminations(const Seeds& runs) {
 }
 
 /// What the columns have no room for.
-std::string runs_note(const std::string& name, const Seeds& runs) {
-  const auto values = [&](const auto& value_of) {
+std::string missions_note(const PaperGroup& group) {
+  const auto values = [&](std::string_view name) {
     std::vector<double> all;
-    for (const RunFigures* const run : runs) all.push_back(value_of(*run));
+    for (const MissionRow* const mission : group.missions) {
+      all.push_back(mission->find(name).value_or(0.0));
+    }
     return all;
   };
-  const auto mean = [&](const auto& value_of) { return mean_of(values(value_of)); };
-  std::array<double, 3> raw{};
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    raw[i] = mean([&](const RunFigures& r) { return r.coverage_final_raw[i]; });
-  }
-  const double views = mean([](const RunFigures& r) { return r.iterations; });
+  const auto mean = [&](std::string_view name) { return mean_of(values(name)); };
   std::string note = fmt::format(
-      "{}: ended by {} after {}; flown {:.1f} m; all surface, also inner: {}; {:.1f} s "
-      "of wall time",
-      name, terminations(runs),
-      counted(static_cast<std::size_t>(std::lround(views)), "view", "views"),
-      mean([](const RunFigures& r) { return r.flown_m; }), three_percent(raw),
-      mean([](const RunFigures& r) { return r.wall_s; }));
-  if (runs.size() > 1) {
-    const auto finest = values([](const RunFigures& r) { return r.coverage_final[0]; });
-    note += fmt::format(", each a mean of {}; at 0.05 m from {:.1f} to {:.1f} %", runs.size(),
-                        100.0 * *std::min_element(finest.begin(), finest.end()),
-                        100.0 * *std::max_element(finest.begin(), finest.end()));
+      "{}: ended by {} after {}; flown {:.1f} m; all surface, also inner: {:.1f} / {:.1f} / {:.1f} "
+      "%; {:.1f} s of wall time",
+      group.name, terminations(group),
+      counted(static_cast<std::size_t>(std::lround(mean("iterations"))), "view", "views"),
+      mean("flown_m"), 100.0 * mean("raw_coverage_0.05"), 100.0 * mean("raw_coverage_0.10"),
+      100.0 * mean("raw_coverage_0.50"), mean("wall_s"));
+  if (group.missions.size() > 1) {
+    const auto finest = values("coverage_0.05");
+    note += fmt::format(", each a mean of {}; at 0.05 m from {:.1f} to {:.1f} %", finest.size(),
+                        100.0 * std::ranges::min(finest), 100.0 * std::ranges::max(finest));
   }
   return note;
 }
 
-void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Group>& groups,
-               bool prints_time, const std::optional<Ceiling>& ceiling) {
-  std::vector<std::string>& notes = table.notes;
-  notes.push_back(
+std::size_t area_samples_of(const MissionRow& mission) {
+  return static_cast<std::size_t>(mission.find("area_samples").value_or(0.0));
+}
+
+std::vector<std::string> notes_of(const TextTable& table, const PaperTable& paper,
+                                  const std::vector<PaperGroup>& groups, bool prints_time) {
+  const auto has_row = [&](const char* kind) {
+    return std::ranges::any_of(table.rows, [&](const Row& row) { return row[1].text == kind; });
+  };
+  std::vector<std::string> notes = {
       fmt::format("coverage: of voxels of that size, ours of those {}",
-                  reference_words(groups.empty() ? 0 : groups[0].runs[0]->area_samples)));
-  if (std::any_of(table.rows.begin(), table.rows.end(),
-                  [](const Row& row) { return row[1].text == kCut; })) {
-    notes.emplace_back(kCutNote);
-  }
+                  reference_words(groups.empty() ? 0 : area_samples_of(*groups[0].missions[0])))};
+  if (has_row(kCutRow)) notes.emplace_back(kCutNote);
   notes.push_back(fmt::format(
       "ours: entropy reduction in nat; distance in straight lines between views, profile apart{}",
       prints_time ? "; time from the first view on, as the distance" : ""));
-  if (std::any_of(groups.begin(), groups.end(),
-                  [](const Group& group) { return group.runs.size() > 1; })) {
+  if (std::ranges::any_of(groups, [](const PaperGroup& g) { return g.missions.size() > 1; })) {
     notes.emplace_back(
         "±: half width of the 95 % interval of the mean over the seeds (Student's t)");
   }
-  if (std::any_of(table.rows.begin(), table.rows.end(),
-                  [](const Row& row) { return row[1].text == kPlace; })) {
+  if (has_row(kPlaceRow)) {
     notes.emplace_back(
         "ours below: share of our runs that lie below the paper's figure, of which it prints one "
         "run; after as many views, entropy reduction and points/voxel at the end");
   }
-  const bool is_one_setting = std::all_of(groups.begin(), groups.end(), [&](const Group& group) {
-    return group.setting == groups.front().setting;
-  });
+  const bool is_one_setting = std::ranges::all_of(
+      groups, [&](const PaperGroup& group) { return group.setting == groups.front().setting; });
   if (const std::string order = is_one_setting ? order_note(paper, groups) : ""; !order.empty()) {
     notes.push_back("the paper's order in single runs of ours, one of each method: " + order);
   }
-  if (ceiling && !ceiling->is_given) {
-    notes.push_back(fmt::format(
-        "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf "
-        "filter can keep, of exact sensors: noise can lift a mission above it; of ceiling: "
-        "coverage at 0.05 m over the latter's; all surface, also inner: {}, behind the leaf filter "
-        "{}",
-        three_percent(ceiling->raw), three_percent(ceiling->leaf_raw)));
-  }
+  notes.insert(notes.end(), table.notes.begin(), table.notes.end());
   if (std::any_of(paper.rows.begin(), paper.rows.end(), is_doubtful)) {
     notes.emplace_back(
         "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
         "own definition; the two columns may have changed places");
   }
-  for (const Group& group : groups) notes.push_back(runs_note(group.name, group.runs));
+  for (const PaperGroup& group : groups) notes.push_back(missions_note(group));
+  return notes;
 }
 
-TableCell metres_cell(const Seeds& runs, double coverage) {
-  std::vector<double> metres;
-  double there = 0.0;
-  for (const RunFigures* const run : runs) {
-    if (run->curve.coverage.empty()) return {};  // nobody knows
-    const auto spent = effort_to_reach(run->curve, run->before, coverage);
-    metres.push_back(spent ? spent->metres : std::numeric_limits<double>::infinity());
-    there += spent ? 1.0 : 0.0;
+/// The median, how many got there, and the mean in which the others have spent the budget.
+TableCell effort_cell(const PaperGroup& group, std::string_view name) {
+  std::vector<double> efforts, restricted;
+  for (const MissionRow* const mission : group.missions) {
+    const auto effort = mission->find(name);
+    if (!effort) return {};  // nobody knows
+    efforts.push_back(*effort);
+    restricted.push_back(std::min(*effort, mission->find("budget_metres").value_or(*effort)));
   }
-  const std::optional<double> median = median_effort(metres);
-  return {fmt::format("{} ({:.0f} of {})", median ? grouped(*median, 1) : "-", there, runs.size()),
+  const auto there = static_cast<double>(
+      std::ranges::count_if(efforts, [](double effort) { return std::isfinite(effort); }));
+  const std::optional<double> median = median_effort(efforts);
+  const double mean = mean_of(restricted);
+  return {fmt::format("{} ({:.0f} of {}){}", median ? grouped(*median, 1) : "-", there,
+                      efforts.size(), std::isfinite(mean) ? ", " + grouped(mean, 1) : ""),
           {median, there}};
 }
 
 }  // namespace
 
-TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> runs,
-                           const std::optional<Ceiling>& ceiling,
-                           std::span<const std::string> settings) {
+TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> missions) {
   const bool prints_time =
       std::any_of(paper.rows.begin(), paper.rows.end(),
                   [](const PaperRow& row) { return row.time_min.has_value(); });
   TextTable table{.title = std::string(paper.source),
-                  .columns = columns_of(runs, {prints_time ? "" : "time_min"})};
-  const double most = ceiling ? ceiling->leaf_counted[0] : 0.0;
-  const std::vector<Group> groups = groups_of(paper, runs, settings);
+                  .columns = columns_of(missions, {prints_time ? "" : "time_min"})};
+  const std::vector<PaperGroup> groups = paper_groups(paper, missions);
   for (const PaperRow& row : paper.rows) {
-    for (const Group& group : groups) {
-      if (group.utility == row.utility) add_ours(group.name, group.runs, &row, most, table);
+    for (const PaperGroup& group : groups) {
+      if (group.method == row.utility) add_ours(group, table);
     }
     add_papers_row(std::string(row.label), row, table);
-    for (const Group& group : groups) {
-      if (group.utility != row.utility || group.runs.size() < 2) continue;
-      add_place(group.name, group.runs, row, table);
+    for (const PaperGroup& group : groups) {
+      if (group.method != row.utility || group.missions.size() < 2) continue;
+      Row& place = table.rows.emplace_back(Row{{group.name}, {kPlaceRow}});
+      const auto cells = place_cells(group, row, std::span(table.columns).subspan(place.size()));
+      place.insert(place.end(), cells.begin(), cells.end());
     }
   }
-  for (const Group& group : groups) {
-    const bool is_papers = find_row(paper, group.utility) != nullptr;
-    if (!is_papers) add_ours(group.name, group.runs, nullptr, most, table);
+  for (const PaperGroup& group : groups) {
+    if (find_row(paper, group.method) == nullptr) add_ours(group, table);
   }
-  add_profiles(groups, most, table);
+  add_profiles(groups, table);
   if (paper.profile) add_papers_row("Profile", *paper.profile, table);
-  if (ceiling && !ceiling->is_given) {
-    add_row("Ceiling", "physical", {covered(ceiling->counted)}, table);
-    add_row("Ceiling", "leaf filter", {covered(ceiling->leaf_counted)}, table);
-  }
-  add_notes(table, paper, groups, prints_time, ceiling);
+  add_ceiling(missions, table);
+  table.notes = notes_of(table, paper, groups, prints_time);
   return table;
 }
 
-TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs,
-                       const std::optional<Ceiling>& ceiling,
-                       std::span<const std::string> settings) {
-  const auto shares = std::span(kReachShares).subspan(1);  // 80 % is what every method passes
+TextTable effort_table(const PaperTable& paper, std::span<const MissionRow> missions) {
+  const auto shares = std::span(kReachNames).subspan(1);  // 80 % is what every method passes
   TextTable table{.title = "Metres to reach the ceiling",
                   .columns = {{"Utility", "utility"}, {"Row", "row"}}};
-  for (const double share : shares) {
-    table.columns.push_back({fmt::format("{:.0f}%", 100.0 * share),
-                             fmt::format("metres_to_{:.0f}", 100.0 * share), ColumnKind::counted});
+  for (const std::string_view share : shares) {
+    const std::string percent(share.substr(2));
+    table.columns.push_back({percent + "%", "metres_to_" + percent, ColumnKind::counted});
   }
-  if (runs.empty() || !ceiling || ceiling->leaf_counted[0] <= 0.0) return table;
-  for (const Group& group : groups_of(paper, runs, settings)) {
+  for (const PaperGroup& group : paper_groups(paper, missions)) {
+    if (!group.missions[0]->find("ceiling_0.05")) continue;
     Row& row = table.rows.emplace_back(Row{{group.name}, {"ours"}});
-    for (const double share : shares) {
-      row.push_back(metres_cell(group.runs, share * ceiling->leaf_counted[0]));
+    for (const std::string_view share : shares) {
+      row.push_back(effort_cell(group, fmt::format("metres_to_{}", share)));
     }
   }
-  table.notes = {
-      "metres to 90 to 99% of the ceiling: median over the runs of the distance, profile apart, "
-      "until the cloud first covered so much at 0.05 m of what it can hold, and how many runs got "
-      "there; one that did not counts as farther than all others"};
+  if (table.rows.empty()) return table;
+  const auto budget_m = missions[0].find("budget_metres");
+  table.notes = {fmt::format(
+      "metres from the first view on until the cloud first covered so much of its ceiling at 0.05 "
+      "m: median, where a mission that did not get there{} counts as farther than all others; how "
+      "many got there; mean, where it counts as the budget",
+      budget_m ? fmt::format(" within the budget of {:g} m", *budget_m) : "")};
   return table;
 }
 
-std::string one_row_summary(const RunFigures& run, bool has_papers_setting, std::size_t width) {
-  const PaperTable* const paper = find_paper_table(run.scenario);
-  const PaperRow* row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
-  if (row != nullptr && !is_papers_structure(*paper, run.structure)) row = nullptr;
+std::string one_row_summary(const MissionRow& mission, bool has_papers_setting, std::size_t width) {
+  const PaperTable* const paper = find_paper_table(mission.scenario);
+  const PaperRow* row = paper == nullptr ? nullptr : find_row(*paper, mission.method);
+  if (row != nullptr && !is_papers_structure(*paper, mission.structure)) row = nullptr;
   // no ceiling here: finding it may take longer than the mission
-  TextTable table{.columns = columns_of({&run, 1}, {"runs", "time_min", "share_of_ceiling"})};
-  add_ours(run.utility, {&run}, has_papers_setting ? row : nullptr, 0.0, table);
-  if (table.rows.size() > 1) table.notes.emplace_back(kCutNote);
-  if (row != nullptr && has_papers_setting) {
-    add_papers_row(run.utility, *row, table);
+  TextTable table{.columns = columns_of({&mission, 1}, {"runs", "time_min", "share_of_ceiling"})};
+  const PaperGroup group{mission.method, mission.setting, mission.method, {&mission}};
+  add_row(group.name, "ours", reached_by(group, kAtEnd), table);
+  const bool is_beside = row != nullptr && has_papers_setting;
+  if (is_beside && !with_prefix(mission.figures, kCut).empty()) {
+    add_row(group.name, kCutRow, reached_by(group, kCut), table);
+    table.notes.emplace_back(kCutNote);
+  }
+  if (is_beside) {
+    add_papers_row(group.name, *row, table);
     if (is_doubtful(*row)) table.notes.emplace_back("† as printed; hardly possible");
   } else if (row != nullptr) {
     table.notes.push_back(fmt::format("without the paper's row: {}", kOtherSetting));
   }
-  if (run.area_samples > 0) {
-    table.notes.push_back("coverage: ours of voxels " + reference_words(run.area_samples));
+  const std::size_t area_samples = area_samples_of(mission);
+  if (area_samples > 0) {
+    table.notes.push_back("coverage: ours of voxels " + reference_words(area_samples));
   }
-  table.notes.push_back(runs_note(run.utility, {&run}));
+  table.notes.push_back(missions_note(group));
   return terminal_text(table, width);
 }
 

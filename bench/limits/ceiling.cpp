@@ -139,10 +139,10 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   out.terrain = scenario.terrain;
   out.obstacles = scenario.obstacles;
   out.no_fly = scenario.no_fly;
-  out.score = scenario.score;
-  out.score.sizes_m = ScoreConfig{}.sizes_m;
-  if (out.score.reference == ScoreReference::outside)
-    out.score.area_samples = ScoreConfig{}.area_samples;
+  out.score.reference = scenario.score.reference;
+  out.score.region_m = scenario.score.region_m;
+  if (out.score.reference == ScoreReference::area_samples)
+    out.score.area_samples = scenario.score.area_samples;
   out.start = scenario.start;
   out.lidars = scenario.lidars;
   for (LidarConfig& lidar : out.lidars) {

@@ -42,6 +42,7 @@ struct MissionScore {
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
   BeforeViews before = {};
+  Budgets budgets = {};  // of the scenario
   // ceiling of the coverage at 0.05 m (leaf_counted of bench/limits/ceiling.hpp), for those who
   // know
   std::optional<double> ceiling = {};

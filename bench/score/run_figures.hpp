@@ -33,6 +33,10 @@ struct BeforeViews {
 
 /// The abscissa of a curve.
 enum class Effort { views, metres, seconds };
+constexpr std::array<std::string_view, 3> kEffortNames = {"views", "metres", "seconds"};
+
+/// By Effort: what mean coverage and efforts are judged over. 0: not known.
+using Budgets = std::array<double, 3>;
 
 /// Of the curve's entry.
 double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry);
@@ -96,6 +100,7 @@ struct RunFigures {
   CloudDistances distances;               // precision, recall, F, Chamfer
   CloudDensity density;
   CoverageCurve curve;            // may be empty
+  Budgets budgets{};              // of the scenario
   std::optional<double> ceiling;  // coverage at 0.05 m that the cloud can reach, when it is known
   double wall_s = 0.0;
 };

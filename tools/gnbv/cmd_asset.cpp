@@ -9,6 +9,7 @@
 #include "scenarios/scenario.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
@@ -24,6 +25,8 @@ struct AssetOptions {
   std::string name;
   std::optional<std::uint64_t> seed;  // of a random one
   std::string kind;                   // of it; empty: the seed chooses
+  std::string drawn_from;             // what its seed is drawn from, instead of --seed
+  int draw = 1;                       // which of the draws
   fs::path out;
   bool list = false;
   bool json = false;
@@ -41,9 +44,12 @@ void check(const AssetOptions& options) {
     throw BadInput(
         fmt::format("asset: NAME is missing; it is one of {}", fmt::join(structure_names(), ", ")));
   }
-  if (options.name != kRandom && (options.seed || !options.kind.empty())) {
-    throw BadInput(fmt::format("{}: --seed and --kind are for `asset random`", options.name));
+  const bool is_drawn = !options.drawn_from.empty();
+  if (options.name != kRandom && (options.seed || !options.kind.empty() || is_drawn)) {
+    throw BadInput(
+        fmt::format("{}: --seed, --kind and --drawn-from are for `asset random`", options.name));
   }
+  if (is_drawn && options.kind.empty()) throw BadInput("--drawn-from: needs --kind");
   if (options.out.empty()) {
     throw BadInput("asset: -o FILE is missing; its extension, .obj, .ply or .glb, is the format");
   }
@@ -94,10 +100,18 @@ void print_list(bool json) {
   for (const std::string_view kind : kRandomKinds) fmt::print("{} --kind {}\n", kRandom, kind);
 }
 
+/// The draw that anybody can repeat: the first 8 hexadecimal digits of the SHA-256 of
+/// "TEXT KIND NUMBER".
+std::uint64_t drawn_seed(const AssetOptions& options) {
+  Sha256 hash;
+  hash.add(fmt::format("{} {} {}", options.drawn_from, options.kind, options.draw));
+  return std::stoull(hash.hex().substr(0, 8), nullptr, 16);
+}
+
 /// Fills in what of a random one was not given.
 TriangleMesh make(AssetOptions& options) {
   if (options.name != kRandom) return make_builtin_structure(options.name);
-  options.seed = options.seed.value_or(1);
+  options.seed = options.drawn_from.empty() ? options.seed.value_or(1) : drawn_seed(options);
   if (options.kind.empty()) options.kind = random_kind(*options.seed);
   return make_random_structure(*options.seed, options.kind);
 }
@@ -132,11 +146,19 @@ void add_asset_command(CLI::App& app) {
           ->add_option("--kind", options->kind,
                        "of `random`: hall, tower, ...; --list names them, else by the seed")
           ->check(is_one_of({kRandomKinds.begin(), kRandomKinds.end()}));
-  command->add_flag("--list", options->list, "print the names of the structures")
-      ->excludes(name)
-      ->excludes(out)
-      ->excludes(seed)
-      ->excludes(kind);
+  CLI::Option* const drawn =
+      command
+          ->add_option(
+              "--drawn-from", options->drawn_from,
+              "of `random`: a text, such as a frozen commit, whose SHA-256 with --kind and "
+              "--draw is the seed: held out from whoever froze it")
+          ->excludes(seed);
+  command->add_option("--draw", options->draw, "which of the draws (1)")
+      ->needs(drawn)
+      ->check(CLI::Range(1, 1'000'000));
+  CLI::Option* const list =
+      command->add_flag("--list", options->list, "print the names of the structures");
+  for (CLI::Option* const other : {name, out, seed, kind, drawn}) list->excludes(other);
   command->add_flag("--json", options->json, "print JSON instead of text");
   command->callback([options] { asset(*options); });
 }

@@ -30,8 +30,9 @@ void draw_comparison(const ComparedMissions& missions, const fs::path& folder) {
   for (std::size_t scenario = 0; scenario < comparison.scenarios.size(); ++scenario) {
     if (auto forest = forest_figure(comparison, scenario)) figures.push_back(std::move(*forest));
     std::vector<RunRecord> records;
-    for (std::size_t i = 0; i < collected.runs.size(); ++i) {
-      if (collected.runs[i].scenario != comparison.scenarios[scenario]) continue;
+    for (std::size_t i = 0; i < collected.rows.size(); ++i) {
+      if (collected.rows[i].scenario != comparison.scenarios[scenario]) continue;
+      if (collected.folders[i].empty()) continue;  // a row alone has no curve
       records.push_back(read_run(collected.folders[i]));
     }
     std::vector<std::string> notes;
@@ -86,14 +87,18 @@ void add_compare_command(CLI::App& app) {
                       "folder for plots: paired differences with intervals, and coverage over "
                       "metres of all methods");
   CLI::Option* const no_ceiling = command->add_flag(
-      "--no-ceiling", request.no_ceiling,
+      "--no-ceiling", options->bench.no_ceiling,
       "leave out the shares of the ceiling and the efforts to reach them: where none "
       "is known yet, each takes a minute");
   add_bench_options(*command, options->bench);
   no_ceiling->excludes(command->get_option("--ceiling-at"));
-  CLI::Option* const from =
-      command->add_option("--from", request.from, "folder of a sweep: compare what it flew");
-  for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out"}) {
+  what_to_fly.push_back(
+      command->add_option("--sweep", request.sweep, "file of a sweep: fly its missions"));
+  CLI::Option* const from = command->add_option(
+      "--from", request.from,
+      "folder of a sweep, or files of rows (--missions): compare what they hold, fly nothing");
+  for (const char* name :
+       {"--mesh", "--seed", "--set", "--bounds", "--seeds", "--jobs", "--out", "--missions"}) {
     what_to_fly.push_back(command->get_option(name));
   }
   for (CLI::Option* const option : what_to_fly) option->excludes(from);

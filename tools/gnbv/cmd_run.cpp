@@ -72,7 +72,7 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
   } else {
     fmt::print(
         "{}\n{}\n",
-        one_row_summary(read_run_figures(folder), has_papers_setting(scenario), stdout_columns()),
+        one_row_summary(mission_row(read_run_figures(folder)), has_papers_setting(scenario), stdout_columns()),
         folder.string());
   }
 }

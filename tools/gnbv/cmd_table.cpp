@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "sim/core/error.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/sweep/table_missions.hpp"
@@ -22,7 +23,17 @@ void add_table_command(CLI::App& app) {
   add_utilities_option(*command, request.utilities, "rows beside the paper's");
   command->add_flag("--no-oracle", request.no_oracle,
                     "without the rows of planners that know the mesh");
+  CLI::Option* const from = command->add_option(
+      "--from", request.from, "files of rows (--missions): print what they hold, fly nothing");
+  command->get_option("SCENARIO")->required(false)->excludes(from);
+  for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--preset", "--seeds", "--jobs",
+                           "--out", "--utilities", "--no-oracle", "--missions", "--ceiling-at"}) {
+    command->get_option(name)->excludes(from);
+  }
   command->callback([options] {
+    if (options->request.scenario.scenario.empty() && options->request.from.empty()) {
+      throw BadInput("table: needs a SCENARIO, or --from");
+    }
     print_bench(table_of_missions(options->request, options->bench), options->bench.format);
   });
 }

@@ -95,6 +95,10 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
                   "take shares of this coverage at 0.05 m, in percent, instead of the ceiling that "
                   "a search finds: what an oracle reached, say")
       ->check(CLI::Range(1.0, 100.0));
+  command.add_option("--missions", options.missions,
+                     "CSV of a row a mission: those that it holds are not flown again, the others "
+                     "are added");
+  command.add_option("--commit", options.commit, "of this program, for the rows of --missions");
   command.add_option("--format", options.format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();

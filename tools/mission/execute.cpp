@@ -247,6 +247,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
         score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
     score.more = score_more_sizes(scenario.score.sizes_m, world, scene, reference_config(scenario),
                                   cloud, threads);
+    score.budgets = budgets_of(scenario.score);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
     if (decisions) decisions->finish();  // before the summary, which says that all is there

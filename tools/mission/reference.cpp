@@ -57,6 +57,10 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
   return reference;
 }
 
+Budgets budgets_of(const ScoreConfig& score) {
+  return {static_cast<double>(score.budget_views), score.budget_m, score.budget_s};
+}
+
 std::optional<double> run_ceiling(const Scenario& scenario, const World& world,
                                   const RayScene& scene, CeilingFrom from, int threads) {
   const ViewPose start = start_pose(scenario, scene);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bench/limits/ceiling.hpp"
+#include "bench/score/run_figures.hpp"
 #include "bench/score/surface_reference.hpp"
 #include "planner/core/belief.hpp"
 #include "scenarios/scenario.hpp"
@@ -15,6 +16,9 @@ namespace gnbv {
 /// scenario's floor is counted.
 SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
                               int threads);
+
+/// What the scenario judges mean coverage and efforts over.
+Budgets budgets_of(const ScoreConfig& score);
 
 /// How a ceiling is come by: read when an earlier command left it in the cache, or found anew,
 /// which may take longer than the mission.

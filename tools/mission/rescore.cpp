@@ -38,6 +38,7 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
       .reference_s = reference_s};
   scored.score.more =
       score_more_sizes(scored.sizes_m, world, scene, reference_config(scenario), cloud, threads);
+  scored.score.budgets = budgets_of(scenario.score);
   scored.score_s = watch.elapsed_s() - reference_s;
   return scored;
 }

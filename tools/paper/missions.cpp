@@ -29,9 +29,9 @@ std::vector<Cell> paper_cells(const PaperRequest& request) {
 PaperMaterial fly_paper(const PaperRequest& request, const BenchOptions& options) {
   PaperMaterial material{.request = request};
   const auto read = [&](const BenchRuns& flown, const std::string& how, auto& missions) {
-    for (std::size_t i = 0; i < flown.runs.size(); ++i) {
-      const ComparedRun& run = flown.runs[i];
-      missions.push_back({run.scenario, run.method, run.seed, read_run(flown.folders[i])});
+    for (std::size_t i = 0; i < flown.rows.size(); ++i) {
+      const MissionRow& row = flown.rows[i];
+      missions.push_back({row.scenario, row.method, row.seed, read_run(flown.folders[i])});
     }
     for (const std::string& note : flown.notes) material.notes.push_back(how + note);
     material.has_failures = material.has_failures || !flown.failures.empty();

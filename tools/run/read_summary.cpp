@@ -126,6 +126,12 @@ RunFigures read_run_figures(const fs::path& run) {
   summary.read(figures.energy_wh, "/energy_wh");
   summary.read(figures.density_points_per_voxel, "/density_points_per_voxel");
   summary.read(figures.ceiling, "/ceiling_at_0.05");
+  for (std::size_t i = 0; i < figures.budgets.size(); ++i) {
+    std::optional<double> budget;  // older summaries have none
+    const std::string pointer = fmt::format("/budget/{}", kEffortNames[i]);
+    if (summary.has(pointer)) summary.read(budget, pointer);
+    figures.budgets[i] = budget.value_or(0.0);
+  }
   summary.read(figures.wall_s, "/wall_s/total");
   std::optional<std::size_t> area_samples;
   summary.read_if_there(area_samples, "/coverage/area_samples");

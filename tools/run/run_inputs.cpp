@@ -1,6 +1,5 @@
 #include "tools/run/run_inputs.hpp"
 
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/content_cache.hpp"
@@ -19,19 +18,6 @@ RunInput mesh_input(const char* key, const std::string& name, const TriangleMesh
   Sha256 sha;
   add_mesh(sha, mesh);
   return {key, name, sha.hex()};
-}
-
-/// The hash of each key; none where there is no such file.
-std::map<std::string, std::string> read_hashes(const fs::path& path) {
-  std::map<std::string, std::string> hashes;
-  if (!fs::exists(path)) return hashes;
-  try {
-    const Json json = Json::parse(read_file(path));
-    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
-  } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
-  }
-  return hashes;
 }
 
 }  // namespace
@@ -69,9 +55,22 @@ void write_inputs(const fs::path& run, std::span<const RunInput> inputs) {
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+std::map<std::string, std::string> input_hashes(const fs::path& run) {
+  const fs::path path = run / kInputsFile;
+  std::map<std::string, std::string> hashes;
+  if (!fs::exists(path)) return hashes;
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
+  } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+  }
+  return hashes;
+}
+
 void need_same_inputs(const fs::path& run, std::span<const RunInput> now,
                       const std::string& advice) {
-  const std::map<std::string, std::string> hashes = read_hashes(run / kInputsFile);
+  const std::map<std::string, std::string> hashes = input_hashes(run);
   for (const RunInput& input : now) {
     const auto then = hashes.find(input.key);
     if (then == hashes.end() || then->second == input.sha256) continue;

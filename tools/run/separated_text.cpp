@@ -31,6 +31,25 @@ std::vector<std::string_view> split(std::string_view row, char separator) {
   return parts;
 }
 
+std::vector<std::string> csv_fields(std::string_view record) {
+  std::vector<std::string> fields(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const char c = record[i];
+    const bool is_doubled = is_quoted && c == '"' && i + 1 < record.size() && record[i + 1] == '"';
+    if (is_doubled) {
+      fields.back() += record[i++];
+    } else if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ',' && !is_quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
 std::string to_string(const TextPlace& place) {
   return fmt::format("{}:{}", place.file.string(), place.line);
 }

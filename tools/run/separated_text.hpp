@@ -22,6 +22,9 @@ std::string_view next_part(std::string_view& rest, char separator);
 /// All parts of a row.
 std::vector<std::string_view> split(std::string_view row, char separator);
 
+/// The fields of a record of RFC 4180 that is one line.
+std::vector<std::string> csv_fields(std::string_view record);
+
 /// `FILE:LINE`, as errors begin.
 struct TextPlace {
   const std::filesystem::path& file;

@@ -1,5 +1,6 @@
 #include "tools/run/summary_json.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/run_figures.hpp"
@@ -17,14 +18,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// Mean coverage at 0.05 m over the run's own length; null for a run that has none.
-Json mean_over_own(const CoverageCurve& curve) {
-  const auto mean = [&](Effort effort, double length) {
-    return length > 0.0 ? Json(area_under_coverage(curve, effort, 0, length)) : Json(nullptr);
-  };
-  return {{"views", mean(Effort::views, static_cast<double>(curve.views()))},
-          {"metres", mean(Effort::metres, curve.metres.back())},
-          {"seconds", mean(Effort::seconds, curve.seconds.back())}};
+/// By effort: what `value_of` gives for its budget; null without one.
+template <typename ValueOf>
+Json by_effort(const Budgets& budgets, const ValueOf& value_of) {
+  Json json;
+  for (std::size_t i = 0; i < budgets.size(); ++i) {
+    json[std::string(kEffortNames[i])] =
+        budgets[i] > 0.0 ? Json(value_of(static_cast<Effort>(i), budgets[i])) : Json(nullptr);
+  }
+  return json;
 }
 
 /// By share of the ceiling; null where it is not reached, and for all when the ceiling is unknown.
@@ -52,7 +54,10 @@ Json score_part(const MissionScore& score) {
       ScoreParts<false>{score.profile, score.final, score.profile_raw, score.final_raw, score.more,
                         score.distances, score.density},
       [&](const std::string& pointer, double value) { json[Json::json_pointer(pointer)] = value; });
-  json["mean_coverage_over_own"] = mean_over_own(score.curve);
+  json["budget"] = by_effort(score.budgets, [](Effort, double budget) { return budget; });
+  json["mean_coverage"] = by_effort(score.budgets, [&](Effort effort, double budget) {
+    return area_under_coverage(score.curve, effort, 0, budget);
+  });
   json["ceiling_at_0.05"] = score.ceiling ? Json(*score.ceiling) : Json(nullptr);
   json["effort_to_reach"] = effort_of(score);
   return json;
@@ -72,7 +77,7 @@ Json symmetry_of(const Prediction& prediction) {
           {"predicted_voxels", prediction.predicted_voxels}};
 }
 
-constexpr std::string_view kRetiredKey = "auc";  // of schema 2: mean_coverage_over_own
+constexpr std::array<std::string_view, 2> kRetiredKeys = {"auc", "mean_coverage_over_own"};
 
 /// The summary with this score instead of the one it has, and this schema. `coverage` is where the
 /// score stands.
@@ -84,7 +89,7 @@ Json with_score(const Json& summary, const MissionScore& score) {
       out[key] = kSummarySchema;
     } else if (key == "coverage") {
       for (const auto& [score_key, score_value] : part.items()) out[score_key] = score_value;
-    } else if (key != kRetiredKey && !part.contains(key)) {
+    } else if (std::ranges::count(kRetiredKeys, key) == 0 && !part.contains(key)) {
       out[key] = value;
     }
   }
@@ -118,7 +123,7 @@ Json home_of(const std::optional<HomeFlight>& home) {
 std::string score_json(const MissionScore& score, bool is_run) {
   Json json = score_part(score);
   if (!is_run) {
-    for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+    for (const char* key : {"budget", "mean_coverage", "ceiling_at_0.05", "effort_to_reach"}) {
       json.erase(key);
     }
     json["coverage"].erase("profile");

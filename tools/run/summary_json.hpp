@@ -14,7 +14,7 @@
 namespace gnbv {
 
 /// 2: precision_recall, accuracy_m, completeness_m, chamfer_m, density, auc; coverage.csv.
-/// 3: auc is mean_coverage_over_own; ceiling_at_0.05, effort_to_reach.
+/// 3: ceiling_at_0.05, effort_to_reach; later budget and mean_coverage, which may be absent.
 constexpr unsigned kSummarySchema = 3;
 
 /// A score as an object of its own; without the run's curve and profile when it is only a cloud

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -14,7 +15,9 @@
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run/file_names.hpp"
+#include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/sweep/missions_csv.hpp"
 #include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -28,14 +31,14 @@ std::string why_missing(const CellOutcome& outcome) {
   return outcome.status == CellStatus::locked ? "being flown by another process" : "not flown";
 }
 
-/// Sentences about cells, each with the seeds that it is true of.
-class CellNotes {
+/// Sentences about missions, each with the seeds that it is true of.
+class RowNotes {
  public:
-  void add(const Cell& cell, const std::string& sentence) {
-    const std::string key = fmt::format("{}, {}: {}", cell.scenario, cell.method, sentence);
+  void add(const MissionRow& row, const std::string& sentence) {
+    const std::string key = fmt::format("{}, {}: {}", row.scenario, row.method, sentence);
     auto at = std::ranges::find(notes_, key, [](const auto& note) { return note.first; });
     if (at == notes_.end()) at = notes_.insert(notes_.end(), {key, {}});
-    at->second.push_back(cell.seed);
+    at->second.push_back(row.seed);
   }
   std::vector<std::string> lines() const {
     std::vector<std::string> all;
@@ -50,27 +53,60 @@ class CellNotes {
   std::vector<std::pair<std::string, std::vector<std::uint64_t>>> notes_;
 };
 
+/// Whether a seed keys more than the start and the planner's own draws.
+bool is_noisy(const Scenario& scenario) {
+  const auto is_noisy_camera = [](const auto& camera) {
+    return camera.noise.model != DepthNoise::none || camera.drop_probability > 0.0;
+  };
+  return scenario.vehicle.estimate.model != EstimateModel::none ||
+         scenario.wind.gust_w20_m_s > 0.0 ||
+         std::ranges::any_of(scenario.cameras, is_noisy_camera) ||
+         std::ranges::any_of(scenario.lidars, [](const auto& l) { return l.range_sigma_m > 0.0; });
+}
+
+/// Missions that did not end by the planner's own rules are counted as they are, and named.
+void add_endings(BenchRuns& runs) {
+  RowNotes notes, failures;
+  for (const MissionRow& row : runs.rows) {
+    const std::string& end = row.termination;
+    const std::string sentence = fmt::format("ended by {}, counted as it is", end);
+    if (end == "collision" || end == "off_course") failures.add(row, sentence);
+    if (end == "battery" || end == "interrupted") notes.add(row, sentence);
+  }
+  for (const std::string& line : failures.lines()) {
+    runs.failures.push_back(line);
+    runs.notes.push_back(line);
+  }
+  for (std::string& line : notes.lines()) runs.notes.push_back(std::move(line));
+}
+
 BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
   BenchRuns collected;
-  CellNotes notes, failures;
+  RowNotes missing;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& cell = cells[i];
+    MissionRow row{.scenario = cell.scenario, .method = cell.method, .seed = cell.seed};
     if (outcomes[i].status != CellStatus::done) {
-      failures.add(cell, "without a result: " + why_missing(outcomes[i]));
+      missing.add(row, "without a result: " + why_missing(outcomes[i]));
       continue;
     }
-    ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run)};
-    // missions that did not end by the planner's own rules are counted as they are, and named
-    const std::string& end = run.figures.termination;
-    const std::string sentence = fmt::format("ended by {}, counted as it is", end);
-    if (end == "collision" || end == "off_course") failures.add(cell, sentence);
-    if (end == "battery" || end == "interrupted") notes.add(cell, sentence);
-    collected.runs.push_back(std::move(run));
-    collected.folders.push_back(outcomes[i].run);
+    const fs::path& folder = outcomes[i].run;
+    row = mission_row(read_run_figures(folder));
+    row.scenario = cell.scenario;
+    row.method = cell.method;
+    const auto inputs = input_hashes(folder);
+    if (const auto structure = inputs.find("structure"); structure != inputs.end()) {
+      row.structure_sha256 = structure->second;
+    }
+    row.program = program_of_rows();
+    const Scenario flown = load_scenario((folder / kScenarioFile).string(), {});
+    row.figures["noisy"] = is_noisy(flown) ? 1.0 : 0.0;
+    collected.rows.push_back(std::move(row));
+    collected.folders.push_back(folder);
   }
-  collected.failures = failures.lines();
+  collected.failures = missing.lines();
   collected.notes = collected.failures;
-  for (std::string& note : notes.lines()) collected.notes.push_back(std::move(note));
+  add_endings(collected);
   return collected;
 }
 
@@ -91,6 +127,13 @@ void need_one_reference(const std::vector<Cell>& cells) {
 }
 
 }  // namespace
+
+std::string program_of_rows() { return flying_source_id().substr(0, 16); }
+
+std::string row_name(const MissionRow& row) {
+  const std::string comma = row.setting.empty() ? "" : ", ";
+  return fmt::format("{}, {}{}{}, seed {}", row.scenario, row.method, comma, row.setting, row.seed);
+}
 
 fs::path bench_folder(const BenchOptions& options) {
   return options.out.empty() ? fs::path("runs") / "bench" : options.out;
@@ -124,6 +167,21 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
   return collect(cells, outcomes);
 }
 
+BenchRuns read_rows(const std::vector<fs::path>& csvs) {
+  BenchRuns runs;
+  for (const fs::path& csv : csvs) {
+    std::ranges::move(read_missions(csv), std::back_inserter(runs.rows));
+  }
+  std::set<std::string> seen;
+  for (const MissionRow& row : runs.rows) {
+    const std::string key = row_name(row);
+    if (!seen.insert(key).second) throw BadInput(fmt::format("two rows of {}", key));
+  }
+  runs.folders.resize(runs.rows.size());
+  add_endings(runs);
+  return runs;
+}
+
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
   if (options.ceiling_percent) {
     Ceiling given;
@@ -139,27 +197,44 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
                       thread_count(options.threads));
 }
 
-Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
-                     std::vector<std::string>& notes) {
-  Ceilings ceilings;
-  std::set<std::pair<std::string, std::string>> asked;
-  std::map<std::string, Ceiling> by_content;
-  for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const ComparedRun& run = runs.runs[i];
-    if (!asked.insert({run.scenario, run.method}).second) continue;
+void add_ceilings(const std::string& baseline, const BenchOptions& options, BenchRuns& runs) {
+  // by scenario and method, the first run
+  std::map<std::string, std::map<std::string, std::size_t>> firsts;
+  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
+    if (runs.folders[i].empty()) continue;
+    firsts[runs.rows[i].scenario].try_emplace(runs.rows[i].method, i);
+  }
+  std::map<std::string, Ceiling> by_scenario, by_content;
+  for (const auto& [scenario, methods] : firsts) {
     try {
-      const Scenario scenario = load_scenario((runs.folders[i] / kScenarioFile).string(), {});
-      const std::string content = to_yaml(what_a_ceiling_depends_on(scenario));
+      const auto flown_by = [&](std::size_t run) {
+        return load_scenario((runs.folders[run] / kScenarioFile).string(), {});
+      };
+      const auto own = methods.find(baseline);
+      const auto& [yardstick, first] = own == methods.end() ? *methods.begin() : *own;
+      const std::string content = to_yaml(what_a_ceiling_depends_on(flown_by(first)));
       if (!by_content.contains(content)) {
-        by_content.emplace(content, ceiling_of(scenario, options));
+        by_content.emplace(content, ceiling_of(flown_by(first), options));
       }
-      ceilings.emplace(std::pair(run.scenario, run.method), by_content.at(content));
+      by_scenario.emplace(scenario, by_content.at(content));
+      std::vector<std::string> others;
+      for (const auto& [method, run] : methods) {
+        if (to_yaml(what_a_ceiling_depends_on(flown_by(run))) != content) others.push_back(method);
+      }
+      if (others.empty() || options.ceiling_percent) continue;
+      runs.notes.push_back(fmt::format(
+          "{}: one ceiling for all, that of {}: by their cameras, leaf or room {} would have "
+          "another",
+          scenario, yardstick, fmt::join(others, ", ")));
     } catch (const BadInput& error) {
-      notes.push_back(
-          fmt::format("{}, {}: no share of ceiling: {}", run.scenario, run.method, error.what()));
+      runs.notes.push_back(fmt::format("{}: no share of ceiling: {}", scenario, error.what()));
     }
   }
-  return ceilings;
+  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
+    const auto ceiling = by_scenario.find(runs.rows[i].scenario);
+    if (runs.folders[i].empty() || ceiling == by_scenario.end()) continue;
+    add_ceiling(read_run_figures(runs.folders[i]), ceiling->second, runs.rows[i]);
+  }
 }
 
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes) {

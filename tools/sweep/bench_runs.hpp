@@ -23,6 +23,9 @@ struct BenchOptions {
   int jobs = 1;
   std::string format = "terminal";
   std::optional<double> ceiling_percent = {};  // at 0.05 m, instead of what a search finds
+  bool no_ceiling = false;
+  std::filesystem::path missions = {};  // CSV of rows, read and written; "" keeps none
+  std::string commit = {};              // of this program, for the rows
 };
 
 /// Where cells are kept when --out is not given: cells are named by their content, so that every
@@ -32,27 +35,41 @@ std::filesystem::path bench_folder(const BenchOptions& options);
 /// `count` seeds from the first on.
 std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count);
 
+/// What rows call this program, and how people call a row.
+std::string program_of_rows();
+std::string row_name(const MissionRow& row);
+
 struct BenchRuns {
-  std::vector<ComparedRun> runs;               // of the cells that are done, in their order
-  std::vector<std::filesystem::path> folders;  // of these runs
+  std::vector<MissionRow> rows;                // of the cells that are done, in their order
+  std::vector<std::filesystem::path> folders;  // of these; "" where only the row is known
   std::vector<std::string> notes;     // cells that are missing here, missions that ended early
   std::vector<std::string> failures;  // of the notes: cells without a result, collisions
 };
 
-/// Flies what is missing and reads all. Throws CommandFailed when it is interrupted, BadInput
-/// before that for cells of a scenario whose coverages are of unlike voxels.
+/// Flies what is missing and reads all, without ceilings. Throws CommandFailed when it is
+/// interrupted, BadInput before that for cells of a scenario whose coverages are of unlike voxels.
 BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options);
 
 /// What is known of the cells in a folder, without flying anything. Throws BadInput as fly_cells().
 BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
 
+/// The rows of missions that an earlier program flew, from files. Throws BadInput as
+/// read_missions(), and for two rows of one mission in different files.
+BenchRuns read_rows(const std::vector<std::filesystem::path>& csvs);
+
+/// The rows of the cells with their ceilings, from options.missions as far as it has them, else
+/// flown; the file then holds all of them. Rows of another program hold as long as this one flies a
+/// sample of them to the same result: of each scenario and method the first cell.
+BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& baseline,
+                        const BenchOptions& options, const std::string& setting = "");
+
 /// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
 
-/// The ceilings of every scenario and method, each as its first run resolved it. One that cannot be
-/// found, its mesh being gone, is left out, and the notes say why.
-Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
-                     std::vector<std::string>& notes);
+/// Adds to rows with a folder the ceiling of their scenario, as the baseline's first run resolved
+/// it (without one, that of the first method by name); the notes name the methods that would have
+/// another. One that cannot be found, its mesh being gone, is left out, and the notes say why.
+void add_ceilings(const std::string& baseline, const BenchOptions& options, BenchRuns& runs);
 
 /// What shares of the ceiling are of, when it is given.
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);

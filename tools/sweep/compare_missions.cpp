@@ -3,8 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "planner/guided/utility.hpp"
+#include "planner/planners.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "tools/sweep/manifest.hpp"
@@ -84,35 +87,66 @@ std::vector<Cell> cells_to_fly(const CompareRequest& request, int seeds) {
   return cells_of(sweep);
 }
 
+/// Flies, or reads what was flown: a sweep's folder, or files of rows.
+BenchRuns runs_of(const CompareRequest& request, const std::string& baseline,
+                  const std::vector<Cell>& cells, const BenchOptions& options) {
+  if (request.from.empty()) return rows_of_cells(cells, baseline, options);
+  if (cells.empty()) return read_rows(request.from);
+  BenchRuns runs = read_cells(cells, request.from.front());
+  if (!options.no_ceiling) add_ceilings(baseline, options, runs);
+  return runs;
+}
+
+/// Rows of tables as methods: without those that know the structure, and those of a setting beside
+/// the scenario's. Scenarios of one name that were flown around several structures are told apart
+/// by these.
+void make_comparable(std::vector<MissionRow>& rows) {
+  const std::vector<std::string_view> oracles = planners_that(&PlannerTraits::knows_structure);
+  std::erase_if(rows, [&](const MissionRow& row) {
+    return !row.setting.empty() || std::ranges::count(oracles, row.method) > 0;
+  });
+  std::map<std::string, std::set<std::string>> structures;
+  for (const MissionRow& row : rows) structures[row.scenario].insert(row.structure);
+  for (MissionRow& row : rows) {
+    if (structures[row.scenario].size() > 1) row.scenario = row.structure;
+  }
+}
+
 }  // namespace
 
 ComparedMissions compare_missions(const CompareRequest& request, const BenchOptions& options) {
-  const bool flies = request.from.empty();
-  const std::vector<Cell> cells =
-      flies ? cells_to_fly(request, options.seed_count) : cells_of_manifest(request.from);
-  const std::vector<std::string> methods = names_of(cells, &Cell::method);
+  std::vector<Cell> cells;
+  if (!request.sweep.empty()) {
+    cells = cells_of(read_sweep(request.sweep));
+  } else if (request.from.empty()) {
+    cells = cells_to_fly(request, options.seed_count);
+  } else if (request.from.size() == 1 && std::filesystem::is_directory(request.from.front())) {
+    cells = cells_of_manifest(request.from.front());
+  }
+  ComparedMissions all;
+  BenchRuns& runs = all.flown;
+  std::string baseline;
+  std::vector<std::string> methods = names_of(cells, &Cell::method);
+  if (!cells.empty()) baseline = baseline_of(request, methods);
+  runs = runs_of(request, baseline, cells, options);
+  if (cells.empty()) {
+    make_comparable(runs.rows);
+    methods = names_of(runs.rows, &MissionRow::method);
+    baseline = baseline_of(request, methods);
+  }
   if (methods.size() < 2) {
-    throw BadInput(
-        fmt::format("{}: the sweep has one method: nothing to compare", request.from.string()));
+    throw BadInput(fmt::format("{}: one method: nothing to compare",
+                               request.from.empty() ? "compare" : request.from.front().string()));
   }
-  const std::string baseline = baseline_of(request, methods);
-  ComparedMissions all{.flown =
-                           flies ? fly_cells(cells, options) : read_cells(cells, request.from)};
-  const BenchRuns& flown = all.flown;
-  const bool has_baseline =
-      std::any_of(flown.runs.begin(), flown.runs.end(),
-                  [&](const ComparedRun& run) { return run.method == baseline; });
-  if (!has_baseline) {
+  if (std::ranges::count(runs.rows, baseline, &MissionRow::method) == 0) {
     throw CommandFailed(fmt::format("no mission of the baseline, {}, is done:\n{}", baseline,
-                                    fmt::join(flown.notes, "\n")));
+                                    fmt::join(runs.notes, "\n")));
   }
-  std::vector<std::string> notes = flown.notes;
-  const Ceilings ceilings = request.no_ceiling ? Ceilings{} : ceilings_of(flown, options, notes);
-  if (!request.no_ceiling) add_given_ceiling_note(options, notes);
-  all.comparison = compare(flown.runs, baseline, ceilings);
+  all.comparison = compare(runs.rows, baseline);
   TextTable table = comparison_table(all.comparison);
-  table.notes.insert(table.notes.end(), notes.begin(), notes.end());
-  all.bench = {{std::move(table)}, flown.failures};
+  table.notes.insert(table.notes.end(), runs.notes.begin(), runs.notes.end());
+  if (!options.no_ceiling) add_given_ceiling_note(options, table.notes);
+  all.bench = {{std::move(table)}, runs.failures};
   return all;
 }
 

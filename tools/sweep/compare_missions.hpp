@@ -25,10 +25,10 @@ struct CompareRequest {
   ScenarioOptions structure;  // of every scenario
   std::vector<std::string> scenarios;
   MethodOptions methods;
-  std::filesystem::path views;  // of the method `route`
-  std::string baseline;         // "" is the first method
-  std::filesystem::path from;   // of a sweep; "" flies
-  bool no_ceiling = false;
+  std::filesystem::path views;                   // of the method `route`
+  std::string baseline;                          // "" is the first method
+  std::filesystem::path sweep = {};              // file whose missions are flown; "": see above
+  std::vector<std::filesystem::path> from = {};  // folder of a sweep, or files of rows; none flies
 };
 
 struct ComparedMissions {

@@ -16,30 +16,15 @@
 namespace gnbv {
 namespace {
 
-const PaperTable& paper_table_of(const Scenario& scenario, const std::string& asked_for) {
-  const PaperTable* const paper = find_paper_table(scenario.name);
+constexpr const char* kExact = "exact sensors";  // of a row
+
+const PaperTable& paper_table_of(const std::string& scenario, const std::string& asked_for) {
+  const PaperTable* const paper = find_paper_table(scenario);
   if (paper != nullptr) return *paper;
   std::string known;
   for (const PaperTable& t : paper_tables()) known += fmt::format(" {}", t.scenario);
   throw BadInput(
       fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for, known));
-}
-
-/// The tour ends by itself, and an oracle is to show what is possible: the paper's number of views
-/// is no bound for them, but one that the user sets is.
-constexpr const char* kToTheEnd = "planner.termination.max_iterations=100000";
-
-/// In a file, or by an override, whatever its value.
-bool sets_max_iterations(const TableRequest& request, const Scenario& resolved) {
-  const Scenario builtin = load_scenario(resolved.name, {});
-  const auto max_iterations = [](const Scenario& scenario) {
-    return scenario.planner.termination.max_iterations;
-  };
-  if (max_iterations(resolved) != max_iterations(builtin)) return true;
-  const std::vector<std::string>& sets = request.scenario.overrides;
-  return std::any_of(sets.begin(), sets.end(), [](const std::string& set) {
-    return set.find("max_iterations") != std::string::npos;
-  });
 }
 
 Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scenario& first,
@@ -58,19 +43,14 @@ Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scena
     const std::string name(utility);
     sweep.methods.push_back({name, {{"planner.utility.name=" + name}}});
   };
-  const bool is_limited = sets_max_iterations(request, first);
-  const auto add_row_to_the_end = [&](std::string_view utility) {
-    add_row(utility);
-    if (!is_limited) sweep.methods.back().overrides.push_back({kToTheEnd});
-  };
   for (const PaperRow& row : paper.rows) add_row(row.utility);
   for (SweepMethod& method : named_methods(request.utilities, "--utilities")) {
     sweep.methods.push_back(std::move(method));
   }
-  for (const auto tour : planners_that(&PlannerTraits::makes_tours)) add_row_to_the_end(tour);
+  for (const auto tour : planners_that(&PlannerTraits::makes_tours)) add_row(tour);
   if (!request.no_oracle) {
     for (const auto oracle : planners_that(&PlannerTraits::knows_structure)) {
-      add_row_to_the_end(oracle);
+      add_row(oracle);
     }
   }
   std::set<std::string> names;
@@ -96,15 +76,15 @@ std::vector<Override> exact_overrides(const Scenario& scenario) {
 }
 
 /// The missions whose mean lies above the ceiling once more, without noise: is it by noise alone?
-Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<ComparedRun>& runs,
-                  const Ceiling& ceiling) {
+Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<MissionRow>& rows) {
   std::erase_if(sweep.methods, [&](const SweepMethod& method) {
-    if (ceiling.is_given) return true;  // nobody said that it is a bound
-    std::vector<double> covered;
-    for (const ComparedRun& run : runs) {
-      if (run.method == method.name) covered.push_back(run.figures.coverage_final[0]);
+    std::vector<double> above;
+    for (const MissionRow& row : rows) {
+      const bool is_bounded = row.find("physical_ceiling_0.05").has_value();
+      if (row.method != method.name || !is_bounded) continue;
+      above.push_back(*row.find("coverage_0.05") - *row.find("ceiling_0.05"));
     }
-    return covered.empty() || estimate_mean(covered).mean <= ceiling.leaf_counted[0];
+    return above.empty() || mean_of(above) <= 0.0;
   });
   const std::vector<Override> exact = exact_overrides(scenario);
   for (SweepMethod& method : sweep.methods) {
@@ -132,58 +112,60 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
   return command + (request.no_oracle ? " --no-oracle" : "");
 }
 
-}  // namespace
-
-BenchTables table_of_missions(const TableRequest& request, const BenchOptions& options) {
-  const Scenario first = resolve_scenario(request.scenario);
-  const PaperTable& paper = paper_table_of(first, request.scenario.scenario);
-  const Sweep sweep = sweep_of(request, paper, first, options.seed_count);
-  const std::vector<Cell> cells = cells_of(sweep);
-  const Ceiling ceiling = ceiling_of(cells.front().resolved, options);
-  BenchRuns flown = fly_cells(cells, options);
-  std::vector<RunFigures> runs;
-  std::vector<std::string> settings;
-  const auto add = [&](const BenchRuns& some, const std::string& setting) {
-    for (const ComparedRun& run : some.runs) {
-      runs.push_back(run.figures);
-      runs.back().utility = run.method;  // it may have been flown under another label
-    }
-    settings.resize(runs.size(), setting);
-  };
-  add(flown, "");
-  const Sweep exact = exact_sweep(sweep, cells.front().resolved, flown.runs, ceiling);
-  if (!exact.methods.empty()) {
-    const BenchRuns again = fly_cells(cells_of(exact), options);
-    add(again, "exact sensors");
-    for (const auto list : {&BenchRuns::notes, &BenchRuns::failures}) {
-      (flown.*list).insert((flown.*list).end(), (again.*list).begin(), (again.*list).end());
-    }
-  }
-  TextTable text = comparison_table(paper, runs, ceiling, settings);
-  const TextTable effort = effort_table(paper, runs, ceiling, settings);
-  if (!exact.methods.empty()) {
+/// What rows alone say.
+BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
+                      const std::vector<std::string>& notes) {
+  TextTable text = comparison_table(paper, runs.rows);
+  const TextTable effort = effort_table(paper, runs.rows);
+  const bool has_exact = std::ranges::count(runs.rows, kExact, &MissionRow::setting) > 0;
+  if (has_exact) {
     text.notes.emplace_back(
         "exact sensors: the same missions without noise of depth, range and pose, flown where "
         "ours lies above the ceiling");
   }
   add_given_ceiling_note(options, text.notes);
+  for (const auto* more : {&notes, &runs.notes}) {
+    text.notes.insert(text.notes.end(), more->begin(), more->end());
+  }
+  // people read two narrow tables, machines one wide one
+  if (options.format == "csv" || options.format == "json") {
+    return {{with_columns_of(text, effort, kSharedColumns)}, runs.failures};
+  }
+  return {{text, effort}, runs.failures};
+}
+
+}  // namespace
+
+BenchTables table_of_missions(const TableRequest& request, const BenchOptions& options) {
+  if (!request.from.empty()) {
+    const BenchRuns runs = read_rows(request.from);
+    return tables_of(paper_table_of(runs.rows.front().scenario, request.from.front().string()),
+                     runs, options, {});
+  }
+  const Scenario first = resolve_scenario(request.scenario);
+  const PaperTable& paper = paper_table_of(first.name, request.scenario.scenario);
+  const Sweep sweep = sweep_of(request, paper, first, options.seed_count);
+  const std::vector<Cell> cells = cells_of(sweep);
+  BenchRuns runs = rows_of_cells(cells, std::string(paper.rows.back().utility), options);
+  const Sweep exact = exact_sweep(sweep, cells.front().resolved, runs.rows);
+  if (!exact.methods.empty()) {
+    const BenchRuns again = rows_of_cells(cells_of(exact), "", options, kExact);
+    runs.rows.insert(runs.rows.end(), again.rows.begin(), again.rows.end());
+    for (const auto list : {&BenchRuns::notes, &BenchRuns::failures}) {
+      (runs.*list).insert((runs.*list).end(), (again.*list).begin(), (again.*list).end());
+    }
+  }
+  std::vector<std::string> notes;
   const std::string structure = structure_name(first.structure);
   if (!is_papers_structure(paper, structure)) {
-    text.notes.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "ours is of {}, which is not known to be the structure that the paper's figures are of",
         request.scenario.mesh.empty() ? structure : request.scenario.mesh));
   }
-  if (!has_papers_setting(cells.front().resolved)) {
-    text.notes.emplace_back(kOtherSetting);
-  }
-  text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
-  text.notes.push_back(
+  if (!has_papers_setting(cells.front().resolved)) notes.emplace_back(kOtherSetting);
+  notes.push_back(
       fmt::format("{}, version {}", command_of(request, options, first.seed), GNBV_VERSION));
-  // people read two narrow tables, machines one wide one
-  if (options.format == "csv" || options.format == "json") {
-    return {{with_columns_of(text, effort, kSharedColumns)}, flown.failures};
-  }
-  return {{text, effort}, flown.failures};
+  return tables_of(paper, runs, options, notes);
 }
 
 }  // namespace gnbv

@@ -47,8 +47,21 @@ const TableCell& cell_of(const TextTable& table, std::size_t row, const std::str
   return table.rows.at(row).at(static_cast<std::size_t>(column - table.columns.begin()));
 }
 
+/// `settings`: of each, or of none.
+std::vector<MissionRow> rows_of(std::span<const RunFigures> runs,
+                                const std::optional<Ceiling>& ceiling = {},
+                                const std::vector<std::string>& settings = {}) {
+  std::vector<MissionRow> rows;
+  for (const RunFigures& run : runs) {
+    MissionRow& row = rows.emplace_back(mission_row(run));
+    if (ceiling) add_ceiling(run, *ceiling, row);
+    if (!settings.empty()) row.setting = settings.at(rows.size() - 1);
+  }
+  return rows;
+}
+
 TextTable paper_alone(std::string_view scenario) {
-  return comparison_table(*find_paper_table(scenario), {}, {});
+  return comparison_table(*find_paper_table(scenario), {});
 }
 
 using Texts = std::vector<std::string>;
@@ -101,7 +114,7 @@ TEST(ComparisonTable, PutsOursAboveThePapersRowAndOthersAfter) {
   RunFigures oracle = example();
   oracle.utility = "oracle_views";
   const std::vector<RunFigures> runs = {oracle, example()};
-  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, Ceiling{});
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs, Ceiling{}));
   std::vector<std::string> order;
   for (const auto& row : table.rows) order.push_back(row[0].text + ": " + row[1].text);
   EXPECT_EQ(order, (std::vector<std::string>{
@@ -115,7 +128,7 @@ TEST(ComparisonTable, AGivenCeilingDividesAndHasNoRow) {
   given.leaf_counted[0] = 0.5;
   given.is_given = true;
   const std::vector<RunFigures> runs = {example()};
-  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, given);
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs, given));
   EXPECT_DOUBLE_EQ(*cell_of(table, 2, "share_of_ceiling").values[0],
                    example().coverage_final[0] / 0.5);
   for (const auto& row : table.rows) EXPECT_NE(row[0].text, "Ceiling");
@@ -135,7 +148,7 @@ TEST(ComparisonTable, SeveralSeedsGiveMeanAndInterval) {
   runs.back().utility = "tour";
   Ceiling ceiling;
   ceiling.leaf_counted = {0.9, 0.95, 1.0};
-  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, ceiling);
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs, ceiling));
   const double half_width = 0.01 * 4.302653 / std::sqrt(3.0);
   const TableCell& coverage = cell_of(table, 2, "coverage_0.05");
   EXPECT_EQ(coverage.text, "80.0 ±2.5%");
@@ -160,7 +173,7 @@ TEST(ComparisonTable, TellsWhichOfOursLieBelowThePaperAndHowOftenItsOrderComes) 
     runs[i].coverage_final[0] = coverage[i];
     runs[i].straight_m = i == 0 ? 1400.0 : 900.0;
   }
-  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, {});
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs));
   const auto place = std::find_if(table.rows.begin(), table.rows.end(), [](const auto& row) {
     return row[0].text == "Proposed" && row[1].text == "ours below";
   });
@@ -182,7 +195,8 @@ TEST(ComparisonTable, ProfilesThatDifferAtASizeOfOnesOwnAreTwoRows) {
   std::vector<RunFigures> runs = {example(), example()};
   for (RunFigures& run : runs) run.more = {{.size_m = 0.2, .profile = 0.7, .final = 0.97}};
   const auto profiles = [&] {
-    const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, {}, settings);
+    const TextTable table =
+        comparison_table(*find_paper_table("aircraft"), rows_of(runs, {}, settings));
     return std::count_if(table.rows.begin(), table.rows.end(), [](const auto& row) {
       return row[0].text.starts_with("Profile") && row[1].text == "ours";
     });
@@ -197,7 +211,7 @@ TEST(ComparisonTable, LabTimesCountFromTheFirstViewToTheLast) {
   RunFigures run = example();
   run.scenario = run.structure = "lab_model";
   run.curve = {.coverage = {{}, {}, {}}, .metres = {0.0, 0.0, 9.0}, .seconds = {0.0, 30.0, 120.0}};
-  const TextTable table = comparison_table(*find_paper_table("lab_model"), {&run, 1}, {});
+  const TextTable table = comparison_table(*find_paper_table("lab_model"), rows_of({&run, 1}));
   EXPECT_EQ(cell_of(table, 0, "time_min").text, "1.5");
   EXPECT_NE(table.notes[1].find("time from the first view on"), std::string::npos);
 }
@@ -216,7 +230,7 @@ TEST(ComparisonTable, OursStandsBesideThePapersRowAfterAsManyViews) {
     }
   }
   const auto cut_row = [&] {
-    const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, {});
+    const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs));
     const auto at = std::find_if(table.rows.begin(), table.rows.end(),
                                  [](const auto& row) { return row[1].text == "ours, cut"; });
     return at == table.rows.end() ? std::vector<std::string>{} : texts(*at);
@@ -229,7 +243,7 @@ TEST(ComparisonTable, OursStandsBesideThePapersRowAfterAsManyViews) {
   EXPECT_EQ(row[4], "-");  // of entropy the end alone is known
   EXPECT_EQ(row[5], "1,154.0 ±0.0");
   EXPECT_EQ(row[6], "57.7 ±0.0%");
-  EXPECT_NE(one_row_summary(runs[0], true).find("ours, cut"), std::string::npos);
+  EXPECT_NE(one_row_summary(mission_row(runs[0]), true).find("ours, cut"), std::string::npos);
   runs[0].curve.coverage.resize(401);  // it ended before: as it is
   runs[0].curve.metres.resize(401);
   runs[0].curve.seconds.resize(401);
@@ -242,12 +256,12 @@ TEST(ComparisonTable, OursStandsBesideThePapersRowAfterAsManyViews) {
 TEST(ComparisonTable, NotesTellHowEachRunEnded) {
   std::vector<RunFigures> runs(3, example());
   runs[1].termination = "collision";
-  const TextTable table = comparison_table(*find_paper_table("aircraft"), runs, {});
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs));
   EXPECT_NE(table.notes.back().find("collision (1), max iterations (2)"), std::string::npos);
 }
 
 TEST(OneRowSummary, ShowsTheMissionOverThePaperOrSaysWhyNot) {
-  const std::string text = one_row_summary(example(), true);
+  const std::string text = one_row_summary(mission_row(example()), true);
   const std::size_t ours = text.find("proposed  ours "), paper = text.find("proposed  paper");
   ASSERT_NE(paper, std::string::npos) << text;
   EXPECT_LT(ours, paper) << text;
@@ -255,7 +269,7 @@ TEST(OneRowSummary, ShowsTheMissionOverThePaperOrSaysWhyNot) {
                             "ended by max iterations after 635 views"}) {
     EXPECT_NE(text.find(words), std::string::npos) << words << " in " << text;
   }
-  const std::string other = one_row_summary(example(), false);
+  const std::string other = one_row_summary(mission_row(example()), false);
   EXPECT_EQ(other.find("proposed  paper"), std::string::npos) << other;
   EXPECT_NE(other.find("without the paper's row: ours has other sensors"), std::string::npos);
 }
@@ -267,7 +281,7 @@ TEST(OneRowSummary, StandsAloneWhereThePaperHasNoRow) {
   own_mesh.structure = "/somewhere/bridge.obj";
   for (const RunFigures& run : {tour, smoke, own_mesh}) {
     for (const bool has_papers_setting : {true, false}) {
-      const std::string text = one_row_summary(run, has_papers_setting);
+      const std::string text = one_row_summary(mission_row(run), has_papers_setting);
       EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << text;
       EXPECT_EQ(text.find("paper"), std::string::npos) << text;
       EXPECT_NE(text.find("504.3"), std::string::npos) << text;
@@ -296,26 +310,32 @@ Ceiling all_of_it() {
   return ceiling;
 }
 
-TEST(EffortTable, IsTheMedianAndHowManyGotThere) {
+/// Whoever got there after the budget of 300 m did not, and has spent it.
+TEST(EffortTable, IsTheMedianHowManyGotThereAndTheMeanWithinTheBudget) {
   const PaperTable& paper = *find_paper_table("aircraft");
   std::vector<RunFigures> runs = {
       reaching("oracle_metres", 1, 50.0, true), reaching("oracle_metres", 2, 60.0, false),
       reaching("proposed", 1, 100.0, true), reaching("proposed", 2, 120.0, true),
-      reaching("proposed", 3, 400.0, false)};
-  const TextTable table = effort_table(paper, runs, all_of_it());
-  EXPECT_EQ(
-      all_texts(table),
-      (std::vector<Texts>{{"Proposed", "ours", "120.0 (3 of 3)", "240.0 (2 of 3)", "240.0 (2 of 3)",
-                           "240.0 (2 of 3)"},  // 95 % and more: 200, 240, never
-                          {"Oracle, few metres", "ours", "55.0 (2 of 2)", "- (1 of 2)",
-                           "- (1 of 2)", "- (1 of 2)"}}));
+      reaching("proposed", 3, 400.0, true)};
+  const TextTable unbounded = effort_table(paper, rows_of(runs, all_of_it()));
+  EXPECT_EQ(texts(unbounded.rows[0]),
+            (Texts{"Proposed", "ours", "120.0 (3 of 3), 206.7", "240.0 (3 of 3), 413.3",
+                   "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3"}));
+  for (RunFigures& run : runs) run.budgets = {0.0, 300.0, 0.0};
+  const TextTable table = effort_table(paper, rows_of(runs, all_of_it()));
+  EXPECT_EQ(all_texts(table),
+            (std::vector<Texts>{{"Proposed", "ours", "120.0 (2 of 3), 173.3",
+                                 "240.0 (2 of 3), 246.7", "240.0 (2 of 3), 246.7",
+                                 "240.0 (2 of 3), 246.7"},  // 95 % and more: 200, 240, never
+                                {"Oracle, few metres", "ours", "55.0 (2 of 2), 55.0",
+                                 "- (1 of 2), 200.0", "- (1 of 2), 200.0", "- (1 of 2), 200.0"}}));
   EXPECT_EQ(table.rows[0][5].values[0], 240.0);
   EXPECT_EQ(table.rows[0][5].values[1], 2.0);
   EXPECT_EQ(table.rows[1][3].values[0], std::nullopt);
-  EXPECT_TRUE(effort_table(paper, runs, {}).rows.empty());
-  EXPECT_TRUE(effort_table(paper, runs, Ceiling{}).rows.empty());
+  EXPECT_TRUE(effort_table(paper, rows_of(runs)).rows.empty());
+  EXPECT_TRUE(effort_table(paper, rows_of(runs, Ceiling{})).rows.empty());
   runs[2].curve = {};
-  EXPECT_EQ(effort_table(paper, runs, all_of_it()).rows.at(0)[2].text, "-");  // nobody knows
+  EXPECT_EQ(effort_table(paper, rows_of(runs, all_of_it())).rows.at(0)[2].text, "-");
 }
 
 TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
@@ -323,10 +343,9 @@ TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
   const std::vector<RunFigures> runs = {reaching("tour", 1, 100.0, true),
                                         reaching("proposed", 1, 100.0, true),
                                         reaching("proposed", 1, 90.0, true)};
-  const Texts settings = {"", "", "leaf_m=0.07"};
+  const std::vector<MissionRow> rows = rows_of(runs, all_of_it(), {"", "", "leaf_m=0.07"});
   const TextTable both =
-      with_columns_of(comparison_table(paper, runs, all_of_it(), settings),
-                      effort_table(paper, runs, all_of_it(), settings), kSharedColumns);
+      with_columns_of(comparison_table(paper, rows), effort_table(paper, rows), kSharedColumns);
   int filled = 0;
   for (const auto& row : both.rows) {
     ASSERT_EQ(row.size(), both.columns.size());

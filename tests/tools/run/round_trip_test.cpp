@@ -269,8 +269,9 @@ TEST(RoundTrip, AnOlderScoreLeavesNothingBehind) {
   const std::string whole = read_file(run / kSummaryFile);
   auto old = nlohmann::ordered_json::parse(whole);
   old["schema"] = 2;
-  old["auc"] = {{"views", 0.5}};  // of schema 2, where mean_coverage_over_own has that name
-  for (const char* key : {"mean_coverage_over_own", "ceiling_at_0.05", "effort_to_reach"}) {
+  old["auc"] = {{"views", 0.5}};
+  old["mean_coverage_over_own"] = {{"views", 0.5}};
+  for (const char* key : {"budget", "mean_coverage", "ceiling_at_0.05", "effort_to_reach"}) {
     old.erase(key);
   }
   write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");

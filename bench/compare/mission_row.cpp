@@ -1,0 +1,154 @@
+#include "bench/compare/mission_row.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/compare/paper_figures.hpp"
+#include "bench/score/voxel_set.hpp"
+
+namespace gnbv {
+namespace {
+
+constexpr std::size_t kAllViews = std::numeric_limits<std::size_t>::max();
+
+void add_coverage(std::string_view prefix, const std::array<double, 3>& by_size, Figures& figures) {
+  for (std::size_t i = 0; i < by_size.size(); ++i) {
+    figures[fmt::format("{}coverage_{}", prefix, size_name(kCoverageSizes_m[i]))] = by_size[i];
+  }
+}
+
+void add_more(std::string_view prefix, const RunFigures& run, auto&& share_of, Figures& figures) {
+  for (const SizedCoverage& at : run.more) {
+    figures[fmt::format("{}coverage_{}", prefix, size_name(at.size_m))] = share_of(at);
+  }
+}
+
+/// After so many views, or at the end of a run that took fewer.
+void add_after(std::string_view prefix, const RunFigures& run, std::size_t views,
+               Figures& figures) {
+  const CoverageCurve& curve = run.curve;
+  const bool is_cut = curve.views() > views;
+  const auto name = [&](std::string_view what) { return fmt::format("{}{}", prefix, what); };
+  figures[name("iterations")] = is_cut ? static_cast<double>(views) : run.iterations;
+  figures[name("distance_m")] = is_cut ? curve.metres[views] : run.straight_m;
+  if (curve.seconds.size() > 1) {
+    figures[name("time_min")] = seconds_of_views(curve, std::min(views, curve.views())) / 60.0;
+  }
+  add_coverage(prefix, is_cut ? curve.coverage[views] : run.coverage_final, figures);
+  add_more(
+      prefix, run,
+      [&](const SizedCoverage& at) { return views < at.curve.size() ? at.curve[views] : at.final; },
+      figures);
+}
+
+/// What is reached beyond a budget is not reached; the budget is that of the views, whatever was
+/// spent before them.
+void add_efforts(const RunFigures& run, double ceiling, Figures& figures) {
+  for (std::size_t i = 0; i < kReachShares.size(); ++i) {
+    const auto spent = effort_to_reach(run.curve, run.before, kReachShares[i] * ceiling);
+    const auto add = [&](Effort effort, double EffortSpent::*counted, std::string_view behind,
+                         double EffortSpent::*told) {
+      const double budget = run.budgets[static_cast<std::size_t>(effort)];
+      const bool is_within = spent && (budget <= 0.0 || (*spent).*counted <= budget);
+      figures[fmt::format("{}_to_{}{}", kEffortNames[static_cast<std::size_t>(effort)],
+                          kReachNames[i], behind)] =
+          is_within ? (*spent).*told : std::numeric_limits<double>::infinity();
+    };
+    add(Effort::views, &EffortSpent::views, "", &EffortSpent::views);
+    add(Effort::metres, &EffortSpent::metres, "", &EffortSpent::metres);
+    add(Effort::metres, &EffortSpent::metres, kWithProfile, &EffortSpent::metres_with_profile);
+    add(Effort::seconds, &EffortSpent::seconds, "", &EffortSpent::seconds);
+    add(Effort::seconds, &EffortSpent::seconds, kWithProfile, &EffortSpent::seconds_with_profile);
+  }
+}
+
+void add_budgets(const RunFigures& run, Figures& figures) {
+  for (std::size_t i = 0; i < run.budgets.size() && !run.curve.coverage.empty(); ++i) {
+    if (run.budgets[i] <= 0.0) continue;
+    figures[fmt::format("budget_{}", kEffortNames[i])] = run.budgets[i];
+    figures[fmt::format("mean_coverage_{}", kEffortNames[i])] =
+        area_under_coverage(run.curve, static_cast<Effort>(i), 0, run.budgets[i]);
+  }
+  const BeforeViews& before = run.before;
+  const auto add = [&](Effort effort, double spent_before) {
+    const auto i = static_cast<std::size_t>(effort);
+    if (run.budgets[i] <= 0.0) return;
+    figures[fmt::format("budget_{}{}", kEffortNames[i], kWithProfile)] =
+        spent_before + run.budgets[i];
+  };
+  add(Effort::metres, before.profile_m + before.transfer_m);
+  add(Effort::seconds, before.profile_end_s);
+}
+
+Figures figures_of(const RunFigures& run) {
+  Figures figures = {{"entropy_reduction", run.entropy_reduction_nat},
+                     {"density_points_per_voxel", run.density_points_per_voxel},
+                     {"flown_m", run.flown_m},
+                     {"flight_time_s", run.flight_time_s},
+                     {"energy_wh", run.energy_wh},
+                     {"wall_s", run.wall_s},
+                     {"area_samples", static_cast<double>(run.area_samples)},
+                     {"profile_distance_m", run.before.profile_m}};
+  if (run.distances.at[1].distance_m > 0.0) {  // runs that an older version scored have none
+    figures["f_0.05"] = run.distances.at[1].f;
+    figures["chamfer_m"] = run.distances.chamfer_m;
+  }
+  add_after(kAtEnd, run, kAllViews, figures);
+  add_coverage(kProfile, run.coverage_profile, figures);
+  add_more(
+      kProfile, run, [](const SizedCoverage& at) { return at.profile; }, figures);
+  add_coverage("raw_", run.coverage_final_raw, figures);
+  const PaperTable* const paper = find_paper_table(run.scenario);
+  const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
+  const auto papers_views = static_cast<std::size_t>(row ? row->iterations.value_or(0) : 0);
+  if (papers_views > 0 && run.curve.views() > papers_views) {
+    add_after(kCut, run, papers_views, figures);
+  }
+  const auto budget = static_cast<std::size_t>(run.budgets[0]);
+  add_after(kWithin, run, budget > 0 ? budget : kAllViews, figures);
+  add_budgets(run, figures);
+  return figures;
+}
+
+}  // namespace
+
+std::optional<double> MissionRow::find(std::string_view name) const {
+  const auto at = figures.find(name);
+  return at == figures.end() ? std::nullopt : std::optional(at->second);
+}
+
+MissionRow mission_row(const RunFigures& run) {
+  return {.scenario = run.scenario,
+          .method = run.utility,
+          .seed = run.seed,
+          .structure = run.structure,
+          .termination = run.termination,
+          .result_sha256 = run.result_sha256,
+          .figures = figures_of(run)};
+}
+
+void add_ceiling(const RunFigures& run, const Ceiling& ceiling, MissionRow& row) {
+  if (ceiling.leaf_counted[0] <= 0.0) return;
+  for (std::size_t i = 0; i < (ceiling.is_given ? 1 : kCoverageSizes_m.size()); ++i) {
+    const std::string size = size_name(kCoverageSizes_m[i]);
+    row.figures["ceiling_" + size] = ceiling.leaf_counted[i];
+    if (!ceiling.is_given) row.figures["physical_ceiling_" + size] = ceiling.counted[i];
+  }
+  row.figures["within_share_of_ceiling"] =
+      row.figures["within_coverage_0.05"] / ceiling.leaf_counted[0];
+  if (!run.curve.coverage.empty()) add_efforts(run, ceiling.leaf_counted[0], row.figures);
+}
+
+Figures with_prefix(const Figures& figures, std::string_view prefix) {
+  if (prefix.empty()) return figures;
+  Figures out;
+  for (auto at = figures.lower_bound(prefix); at != figures.end(); ++at) {
+    if (!at->first.starts_with(prefix)) break;
+    out.emplace(at->first.substr(prefix.size()), at->second);
+  }
+  return out;
+}
+
+}  // namespace gnbv

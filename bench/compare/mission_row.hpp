@@ -1,0 +1,60 @@
+// A mission as one row: words that say which one it is, and its figures by name. Tables and
+// comparisons are made of such rows alone, whether they were just flown or come from a file.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/limits/ceiling.hpp"
+#include "bench/score/run_figures.hpp"
+
+namespace gnbv {
+
+/// Figures by name; what is not known is not there. Coverages are fractions, lengths metres, times
+/// seconds unless the name says otherwise. An effort to reach what was not reached is infinite.
+using Figures = std::map<std::string, double, std::less<>>;
+
+struct MissionRow {
+  std::string id = {};        // of what was flown, whatever program flew it (CellNamer)
+  std::string scenario = {};  // as a table or comparison names it
+  std::string method = {};
+  std::string setting = {};  // what sets it apart from other rows of its method: "exact sensors"
+  std::uint64_t seed = 0;
+  std::string structure = {};         // built-in name, or path of the mesh
+  std::string structure_sha256 = {};  // of the mesh as it was flown around
+  std::string program = {};           // that flew it: flying_source_id()
+  std::string commit = {};            // of the program, where the caller knows it
+  std::string termination = {};
+  std::string result_sha256 = {};
+  Figures figures = {};
+
+  std::optional<double> find(std::string_view name) const;
+};
+
+/// What a mission came to at its end, after fewer views, or after its profile: the same names with
+/// a prefix before them.
+constexpr std::string_view kAtEnd = "";
+constexpr std::string_view kCut = "cut_";        // after as many views as the paper's row
+constexpr std::string_view kWithin = "within_";  // after as many views as the scenario's budget
+constexpr std::string_view kProfile = "profile_";
+constexpr std::string_view kWithProfile = "_with_profile";  // behind an effort
+
+/// A run as a row, named by its own scenario and utility. Figures: iterations, distance_m, time_min
+/// and coverage_0.05 (and so on for each size), with each prefix, kCut where the paper has a row of
+/// this utility in this scenario and the run took more views; raw_coverage_*; entropy_reduction,
+/// density_points_per_voxel, flown_m, flight_time_s, energy_wh, wall_s, f_0.05, chamfer_m,
+/// area_samples; budget_* (of metres and seconds also kWithProfile) and mean_coverage_* by
+/// kEffortNames. With a ceiling: ceiling_* (of the
+/// cloud) and physical_ceiling_* by size, and by kEffortNames and kReachNames metres_to_0.95 and
+/// the like, of metres and seconds also kWithProfile.
+MissionRow mission_row(const RunFigures& run);
+void add_ceiling(const RunFigures& run, const Ceiling& ceiling, MissionRow& row);
+
+/// The figures whose names begin with the prefix, without it. Of kAtEnd all figures.
+Figures with_prefix(const Figures& figures, std::string_view prefix);
+
+}  // namespace gnbv
