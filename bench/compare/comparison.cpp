@@ -1,8 +1,12 @@
 #include "bench/compare/comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "sim/core/error.hpp"
 
@@ -10,9 +14,19 @@ namespace gnbv {
 namespace {
 
 constexpr double kLevel = 0.05;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The values of one metric in one scenario: by method, then by seed.
-using Values = std::vector<std::map<std::uint64_t, double>>;
+/// What a method came to on one side of a pair.
+struct Measured {
+  double value = 0.0;  // kNever for an effort that did not get there within the budget
+  double mean = 0.0;   // the same as means count it: of such an effort the budget
+};
+
+/// A seed of a scenario; or a structure. Sums go by this order, whatever that of the runs.
+using Pair = std::pair<std::string, std::uint64_t>;
+
+/// By one metric: by method, then by pair.
+using Values = std::vector<std::map<Pair, Measured>>;
 
 /// Of a name, which is added where it is new.
 std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
@@ -22,95 +36,107 @@ std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
   return index;
 }
 
+std::optional<Measured> measured(const RunMetric& metric, const RunFigures& run,
+                                 const MetricContext& context) {
+  const std::optional<double> value = metric.value(run, context);
+  if (!value || !metric.limit)
+    return value ? std::optional(Measured{*value, *value}) : std::nullopt;
+  const std::optional<double> limit = metric.limit(run, context);
+  if (!limit) return std::nullopt;
+  return Measured{*value <= *limit ? *value : kNever, std::min(*value, *limit)};
+}
+
 Values values_of(Comparison& comparison, std::span<const ComparedRun> runs,
                  const Ceilings& ceilings, std::size_t scenario, std::size_t metric) {
   Values values(comparison.methods.size());
   for (const ComparedRun& run : runs) {
     if (run.scenario != comparison.scenarios[scenario]) continue;
     MetricContext context{.budgets = comparison.budgets[scenario]};
-    const auto ceiling = ceilings.find({run.scenario, run.method});
+    const auto ceiling = ceilings.find(run.scenario);
     if (ceiling != ceilings.end()) context.ceiling = ceiling->second;
-    const auto value = comparison.metrics[metric].value(run.figures, context);
+    const auto value = measured(comparison.metrics[metric], run.figures, context);
     if (!value) continue;
     auto& of_method = values[index_in(comparison.methods, run.method)];
-    const bool is_new = of_method.emplace(run.seed, *value).second;
+    const bool is_new = of_method.emplace(Pair(run.scenario, run.seed), *value).second;
     GNBV_CHECK(is_new, "two runs of {}, {}, seed {}", run.scenario, run.method, run.seed);
   }
   return values;
 }
 
-/// Ranks of the methods, a row a seed that all of them have.
+/// What each method came to in each structure, over all its runs there. `structures`: by scenario.
+Values over_structures(std::span<const Values> by_scenario, std::span<const std::string> structures,
+                       bool is_effort) {
+  Values all(by_scenario[0].size());
+  for (std::size_t method = 0; method < all.size(); ++method) {
+    std::map<std::string, std::map<Pair, Measured>> runs;
+    for (std::size_t s = 0; s < by_scenario.size(); ++s) {
+      const auto& of_scenario = by_scenario[s][method];
+      if (!of_scenario.empty()) runs[structures[s]].insert(of_scenario.begin(), of_scenario.end());
+    }
+    for (const auto& [structure, of_structure] : runs) {
+      std::vector<double> values, means;
+      for (const auto& [seed, run] : of_structure) {
+        values.push_back(run.value);
+        means.push_back(run.mean);
+      }
+      const double mean = mean_of(means);
+      const double value = is_effort ? median_effort(values).value_or(kNever) : mean;
+      all[method][{structure, 0}] = {value, mean};
+    }
+  }
+  return all;
+}
+
+/// Ranks of the methods, a row a pair that all of them have.
 std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_is_better) {
   std::vector<std::vector<double>> blocks;
-  for (const auto& [seed, first] : values[0]) {
+  for (const auto& [pair, first] : values[0]) {
     std::vector<double> costs;
     for (const auto& of_method : values) {
-      const auto at = of_method.find(seed);
-      if (at != of_method.end()) costs.push_back(higher_is_better ? -at->second : at->second);
+      const auto at = of_method.find(pair);
+      if (at == of_method.end()) continue;
+      costs.push_back(higher_is_better ? -at->second.value : at->second.value);
     }
     if (costs.size() == values.size()) blocks.push_back(ranks_of(costs));
   }
   return blocks;
 }
 
-std::optional<Contrast> contrast_of(const std::map<std::uint64_t, double>& method,
-                                    const std::map<std::uint64_t, double>& baseline) {
-  std::vector<double> differences;
-  std::vector<double> finite;
-  std::vector<double> base;  // of the finite ones
-  for (const auto& [seed, value] : method) {
-    const auto at = baseline.find(seed);
+std::optional<Contrast> contrast_of(const std::map<Pair, Measured>& method,
+                                    const std::map<Pair, Measured>& baseline) {
+  std::vector<double> differences, of_means, base;
+  for (const auto& [pair, its] : method) {
+    const auto at = baseline.find(pair);
     if (at == baseline.end()) continue;
-    differences.push_back(value == at->second ? 0.0
-                                              : value - at->second);  // inf - inf is no number
-    if (std::isinf(value) || std::isinf(at->second)) continue;
-    finite.push_back(differences.back());
-    base.push_back(at->second);
+    const Measured& other = at->second;
+    // infinite - infinite is no number
+    differences.push_back(its.value == other.value ? 0.0 : its.value - other.value);
+    of_means.push_back(its.mean - other.mean);
+    base.push_back(other.mean);
   }
-  if (differences.empty()) return std::nullopt;
-  Contrast contrast;
-  contrast.pairs = differences.size();
-  if (!finite.empty()) {
-    contrast.baseline_mean = mean_of(base);
-    contrast.difference = estimate_mean(finite);
-  }
-  const SignedRankTest test = wilcoxon_signed_rank(differences);
-  contrast.differing = test.n;
-  contrast.is_above = test.w_plus > 0.25 * static_cast<double>(test.n * (test.n + 1));
-  contrast.p = test.p;
-  if (contrast.pairs > 1 && contrast.differing == 0) contrast.verdict = Verdict::equal;
-  return contrast;
+  if (base.empty()) return std::nullopt;
+  return Contrast{.baseline_mean = mean_of(base),
+                  .difference = estimate_mean(of_means),
+                  .test = wilcoxon_signed_rank(differences)};
 }
 
-/// Of all pairs: a mean over those where both got there says nothing of the others.
-bool interval_excludes_zero(const Contrast& contrast) {
-  const MeanEstimate& d = contrast.difference;
-  return d.n == contrast.pairs && d.half_width && std::abs(d.mean) > *d.half_width;
+Verdict verdict_of(const Contrast& contrast) {
+  if (contrast.difference.n < 2) return Verdict::untested;
+  if (contrast.test.n == 0) return Verdict::equal;
+  if (contrast.p_holm <= kLevel) return Verdict::significant;
+  return least_p_holm(contrast) > kLevel ? Verdict::too_few : Verdict::not_significant;
 }
 
 /// Holm's adjustment over the family, and what follows.
 void judge(std::vector<Contrast*>& family) {
   std::vector<double> p;
-  for (const Contrast* contrast : family) p.push_back(contrast->p);
+  for (const Contrast* contrast : family) p.push_back(contrast->test.p);
   const std::vector<double> adjusted = holm_adjusted(p);
   for (std::size_t i = 0; i < family.size(); ++i) {
-    Contrast& contrast = *family[i];
-    contrast.p_holm = adjusted[i];
-    contrast.family = family.size();
-    if (contrast.verdict == Verdict::equal || contrast.pairs < 2) continue;
-    contrast.verdict = contrast.p_holm <= kLevel ? Verdict::significant
-                       : least_p_holm(contrast) > kLevel && interval_excludes_zero(contrast)
-                           ? Verdict::interval_only
-                           : Verdict::not_significant;
+    family[i]->p_holm = adjusted[i];
+    family[i]->family = family.size();
+    family[i]->verdict = verdict_of(*family[i]);
   }
-}
-
-MeanEstimate estimate_of_finite(const std::map<std::uint64_t, double>& by_seed) {
-  std::vector<double> values;
-  for (const auto& [seed, value] : by_seed) {
-    if (std::isfinite(value)) values.push_back(value);
-  }
-  return values.empty() ? MeanEstimate{} : estimate_mean(values);
 }
 
 std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
@@ -120,22 +146,35 @@ std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
   return ranks.empty() ? std::nullopt : std::optional(mean_of(ranks));
 }
 
+MethodFigure figure_of(const std::map<Pair, Measured>& of_method, bool is_effort) {
+  std::vector<double> values, means;
+  for (const auto& [pair, its] : of_method) {
+    values.push_back(its.value);
+    means.push_back(its.mean);
+  }
+  const auto missed = std::count(values.begin(), values.end(), kNever);
+  return {.reached = values.size() - static_cast<std::size_t>(missed),
+          .estimate = estimate_mean(means),
+          .median = is_effort ? median_effort(values) : std::nullopt};
+}
+
 void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metric,
-                 const Values& values, const std::vector<std::vector<double>>& blocks) {
+                 const Values& values) {
+  const RunMetric& its = comparison.metrics[metric];
+  const auto blocks = rank_blocks(values, its.higher_is_better);
   const std::size_t first = comparison.figures.size();
   for (std::size_t method = 0; method < values.size(); ++method) {
     if (values[method].empty()) continue;
     MethodFigure& figure = comparison.figures.emplace_back();
-    figure = {.scenario = scenario,
-              .metric = metric,
-              .method = method,
-              .runs = values[method].size(),
-              .estimate = estimate_of_finite(values[method]),
-              .rank = mean_rank(blocks, method)};
-    if (method != comparison.baseline) {
-      figure.contrast = contrast_of(values[method], values[comparison.baseline]);
-    }
+    figure = figure_of(values[method], its.limit != nullptr);
+    figure.scenario = scenario;
+    figure.metric = metric;
+    figure.method = method;
+    if (its.is_judged) figure.rank = mean_rank(blocks, method);
+    if (method == comparison.baseline) continue;
+    figure.contrast = contrast_of(values[method], values[comparison.baseline]);
   }
+  if (!its.is_judged || !comparison.is_tested(scenario)) return;
   std::vector<Contrast*> family;
   for (std::size_t i = first; i < comparison.figures.size(); ++i) {
     if (comparison.figures[i].contrast) family.push_back(&*comparison.figures[i].contrast);
@@ -158,54 +197,72 @@ bool flew_the_same(std::span<const ComparedRun> runs, const std::string& a, cons
   return shared > 0;
 }
 
+/// All that is not a figure, the baseline apart. The structure of each scenario.
+std::vector<std::string> add_scenarios(Comparison& comparison, std::span<const ComparedRun> runs) {
+  std::vector<const RunFigures*> all;
+  std::vector<std::vector<const RunFigures*>> by_scenario;
+  std::vector<std::string> structures;
+  for (const ComparedRun& run : runs) {
+    const std::size_t scenario = index_in(comparison.scenarios, run.scenario);
+    const RunFigures& figures = run.figures;
+    const std::string& structure = figures.structure.empty() ? run.scenario : figures.structure;
+    if (scenario == by_scenario.size()) {
+      by_scenario.emplace_back();
+      structures.push_back(structure);
+      comparison.area_samples.push_back(figures.area_samples);
+      comparison.is_noisy.push_back(false);
+    }
+    structures[scenario] = std::min(structures[scenario], structure);
+    if (run.is_noisy) comparison.is_noisy[scenario] = true;
+    by_scenario[scenario].push_back(&figures);
+    all.push_back(&figures);
+    index_in(comparison.methods, run.method);
+  }
+  comparison.metrics = metrics_of(all);
+  for (const auto& runs_there : by_scenario) {
+    comparison.budgets.push_back(common_budgets(runs_there));
+  }
+  comparison.structures = std::set(structures.begin(), structures.end()).size();
+  if (comparison.structures > 1) {
+    comparison.scenarios.push_back(fmt::format("all {} structures", comparison.structures));
+  }
+  return structures;
+}
+
 }  // namespace
 
 double least_p_holm(const Contrast& contrast) {
   // Holm's first step asks for the smallest p times the size of the family
-  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.differing);
+  return static_cast<double>(contrast.family) * least_wilcoxon_p(contrast.test.n);
 }
 
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings) {
   Comparison comparison;
-  auto& [metrics, scenarios, area_samples, methods, base, budgets, figures, ranks, same_missions] =
-      comparison;
-  std::vector<const RunFigures*> all;
-  std::vector<std::vector<const RunFigures*>> by_scenario;
-  for (const ComparedRun& run : runs) {
-    const std::size_t scenario = index_in(scenarios, run.scenario);
-    by_scenario.resize(scenarios.size());
-    area_samples.resize(scenarios.size(), run.figures.area_samples);
-    by_scenario[scenario].push_back(&run.figures);
-    all.push_back(&run.figures);
-    index_in(methods, run.method);
-  }
-  metrics = metrics_of(all);
-  for (const auto& of_scenario : by_scenario) budgets.push_back(common_budgets(of_scenario));
+  std::vector<std::string>& methods = comparison.methods;
+  const std::vector<std::string> structures = add_scenarios(comparison, runs);
   const std::size_t known = methods.size();
-  base = index_in(methods, baseline);
-  GNBV_CHECK(base < known, "no run of the baseline '{}'", baseline);
+  comparison.baseline = index_in(methods, baseline);
+  GNBV_CHECK(comparison.baseline < known, "no run of the baseline '{}'", baseline);
   for (std::size_t later = 1; later < methods.size(); ++later) {
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
       if (!flew_the_same(runs, methods[earlier], methods[later])) continue;
-      same_missions.push_back({later, earlier});
+      comparison.same_missions.push_back({later, earlier});
       break;
     }
   }
-  for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
-    std::vector<std::vector<double>> of_all;
-    for (std::size_t s = 0; s < scenarios.size(); ++s) {
-      const Values values = values_of(comparison, runs, ceilings, s, metric);
-      const auto blocks = rank_blocks(values, metrics[metric].higher_is_better);
-      add_figures(comparison, s, metric, values, blocks);
-      of_all.insert(of_all.end(), blocks.begin(), blocks.end());
+  for (std::size_t metric = 0; metric < comparison.metrics.size(); ++metric) {
+    std::vector<Values> by_scenario;
+    for (std::size_t s = 0; s < structures.size(); ++s) {
+      by_scenario.push_back(values_of(comparison, runs, ceilings, s, metric));
+      add_figures(comparison, s, metric, by_scenario.back());
     }
-    for (std::size_t method = 0; method < methods.size() && !of_all.empty(); ++method) {
-      ranks.push_back({metric, method, of_all.size(), *mean_rank(of_all, method)});
-    }
+    if (comparison.structures < 2) continue;
+    const bool is_effort = comparison.metrics[metric].limit != nullptr;
+    add_figures(comparison, structures.size(), metric,
+                over_structures(by_scenario, structures, is_effort));
   }
-  std::stable_sort(figures.begin(), figures.end(),
-                   [](const auto& a, const auto& b) { return a.scenario < b.scenario; });
+  std::ranges::stable_sort(comparison.figures, {}, &MethodFigure::scenario);
   return comparison;
 }
 

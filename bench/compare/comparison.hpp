@@ -1,4 +1,5 @@
-// Is A better than B here? Methods over seeds, with intervals and paired tests.
+// Is A better than B here? Methods over structures, or over the seeds of one, with intervals and
+// paired tests.
 #pragma once
 
 #include <array>
@@ -7,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench/compare/run_metrics.hpp"
@@ -23,75 +23,76 @@ struct ComparedRun {
   std::string method;
   std::uint64_t seed = 0;
   RunFigures figures;
+  bool is_noisy = false;  // its seed keys noise of sensors, estimate or air, too
 };
 
-/// What the seeds say about a difference.
+/// What the pairs say about a difference.
 enum class Verdict {
-  untested,         // one seed, or none, that both methods have
-  equal,            // none of several seeds makes a difference
-  not_significant,  // neither of the following
-  interval_only,    // so few seeds that no test could reject; yet Student's interval of the mean
-                    // difference excludes 0
+  told,             // of a figure that is not judged, or of one structure among several
+  untested,         // one pair
+  equal,            // none of several pairs makes a difference
+  too_few,          // so few differ that no p of the test could be below 5 %, after Holm
+  not_significant,  // the test could reject and does not
   significant       // the signed-rank test rejects at 5 %, after Holm
 };
 
-/// A method against the baseline, over the seeds that both have. Where a run did not reach what the
-/// metric asks for, it is worse than any that did, and as good as another that did not.
+/// A method against the baseline, over the seeds or structures that both have. Where a run did not
+/// reach what the metric asks for, it is worse than any that did, and as good as another that did
+/// not; in means it counts as the budget.
 struct Contrast {
-  std::size_t pairs = 0;
-  std::size_t differing = 0;   // of these, whose difference is not 0: those the test ranks
-  std::size_t family = 1;      // methods of this scenario and metric that Holm adjusts for
-  double baseline_mean = 0.0;  // over the seeds of `difference`
-  MeanEstimate difference;     // method - baseline, where both are finite; n = 0: nowhere
-  bool is_above = false;       // whether the ranks of positive differences weigh more
-  double p = 1.0;              // two-sided signed-rank test, over all pairs
-  double p_holm = 1.0;         // adjusted over the methods of this scenario and metric
-  Verdict verdict = Verdict::untested;
+  double baseline_mean = 0.0;
+  MeanEstimate difference = {};  // method - baseline, over all pairs
+  SignedRankTest test = {};      // two-sided, over all pairs
+  std::size_t family = 1;        // methods that Holm adjusts for
+  double p_holm = 1.0;           // adjusted over the methods of this scenario and metric
+  Verdict verdict = Verdict::told;
 };
 
 /// The least p that a contrast could have had, after Holm's first step; above 5 % its test cannot
 /// reject, whatever the values.
 double least_p_holm(const Contrast& contrast);
 
-/// A method in a scenario by a metric.
+/// A method by a metric in a scenario, over its seeds; or in all structures, each of them the mean
+/// of its runs (of an effort, for median, ranks and test: the median).
 struct MethodFigure {
   std::size_t scenario = 0;  // indices into Comparison's lists
   std::size_t metric = 0;
   std::size_t method = 0;
-  std::size_t runs = 0;
-  MeanEstimate estimate = {};             // over those that are finite; n = 0: none
-  std::optional<double> rank = {};        // mean over the seeds that all methods have; 1 is best
+  std::size_t reached = 0;                // of those below: an effort within the budget
+  MeanEstimate estimate = {};             // a run that did not get there counts as the budget
+  std::optional<double> median = {};      // of efforts: not reached is the largest, and no number
+  std::optional<double> rank = {};        // mean over the pairs that all methods have; 1 is best
   std::optional<Contrast> contrast = {};  // none for the baseline
-};
-
-/// Mean rank of a method by a metric over all scenarios and seeds that all methods have.
-struct OverallRank {
-  std::size_t metric = 0;
-  std::size_t method = 0;
-  std::size_t blocks = 0;
-  double rank = 0.0;
 };
 
 struct Comparison {
   std::vector<RunMetric> metrics;  // metrics_of() all runs
+  /// Then, of several structures, the block over all of them: "all 6 structures".
   std::vector<std::string> scenarios;
+  std::size_t structures = 0;             // different ones: the pairs, if there are several
   std::vector<std::size_t> area_samples;  // by scenario, of the reference: what coverage counts
+  std::vector<bool> is_noisy;             // by scenario: ComparedRun's
   std::vector<std::string> methods;
   std::size_t baseline = 0;
   std::vector<std::array<double, 3>> budgets;  // by scenario: common_budgets()
   std::vector<MethodFigure> figures;  // by scenario, metric, method; without what nobody measured
-  std::vector<OverallRank> ranks;
   /// A method, and the first one before it that flew the very same missions wherever both flew (by
   /// result_sha256): what sets the two apart has no effect.
   std::vector<std::array<std::size_t, 2>> same_missions = {};
+
+  /// Whether this is the block over all structures.
+  bool is_of_all(std::size_t scenario) const { return scenario == area_samples.size(); }
+  /// Whether methods are tested there: over structures if there are several, else over seeds.
+  bool is_tested(std::size_t scenario) const { return is_of_all(scenario) == (structures > 1); }
 };
 
-/// By scenario and method: a method that changes a camera, the leaf or the workspace has a ceiling
-/// of its own.
-using Ceilings = std::map<std::pair<std::string, std::string>, Ceiling>;
+/// By scenario: one yardstick for all methods of it.
+using Ceilings = std::map<std::string, Ceiling>;
 
-/// Scenarios and methods in the order of their first runs. The ceilings as far as they are known.
-/// Requires a run of the baseline, and no two runs of one scenario, method and seed.
+/// Scenarios and methods in the order of their first runs; no figure depends on that order.
+/// Scenarios of one structure (RunFigures::structure; without one the scenario) are one pair. The
+/// ceilings as far as they are known. Requires a run of the baseline, and no two runs of one
+/// scenario, method and seed.
 Comparison compare(std::span<const ComparedRun> runs, const std::string& baseline,
                    const Ceilings& ceilings);
 
@@ -99,12 +100,12 @@ Comparison compare(std::span<const ComparedRun> runs, const std::string& baselin
 const MethodFigure* find_figure(const Comparison& comparison, std::size_t scenario,
                                 std::string_view metric, std::size_t method);
 
-/// One line a scenario and method other than the baseline: what it covers at 0.05 m and how far it
-/// flies against the baseline, with intervals, p values and what they allow to say.
+/// One line a method other than the baseline, where methods are tested: what it covers at 0.05 m
+/// and how far it flies against the baseline, with intervals, and what the test of the first says.
 std::vector<std::string> answers(const Comparison& comparison);
 
-/// A row per scenario, metric and method, then the ranks over all scenarios if there are several.
-/// The answers are the first notes; the others say what the columns are.
+/// A row per scenario, metric and method, then those over all structures if there are several. The
+/// answers are the first notes; the others say what the columns are.
 TextTable comparison_table(const Comparison& comparison);
 
 }  // namespace gnbv

@@ -66,6 +66,16 @@ std::string name_in_table(const PaperTable& paper, const std::string& utility) {
   return utility == "oracle_metres" ? "Oracle, few metres" : utility;
 }
 
+std::optional<std::string> formulas_note(std::span<const std::string> names) {
+  for (const std::string& name : names) {  // bircher, Bircher [17], planner.utility.name=isler
+    if (name.find("ircher") == std::string::npos && name.find("sler") == std::string::npos)
+      continue;
+    return "Bircher [17] and Isler [29] are the gain formulas of those papers in this paper's "
+           "sampler, not their planners";
+  }
+  return std::nullopt;
+}
+
 bool is_doubtful(const PaperRow& row) {
   return row.coverage_percent && (*row.coverage_percent)[0] > (*row.coverage_percent)[1];
 }

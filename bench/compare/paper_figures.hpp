@@ -42,6 +42,9 @@ const PaperRow* find_row(const PaperTable& paper, std::string_view utility);
 /// What tables call a utility: as the paper does, or by our own words.
 std::string name_in_table(const PaperTable& paper, const std::string& utility);
 
+/// What rows are not that these names make of one; nothing where none is named after another paper.
+std::optional<std::string> formulas_note(std::span<const std::string> names);
+
 /// Why a run of a scenario of the paper's does not stand beside it.
 constexpr std::string_view kOtherSetting =
     "ours has other sensors, views, resolution, profile or room than the paper's";

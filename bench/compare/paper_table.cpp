@@ -395,6 +395,9 @@ void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Grou
         "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
         "own definition; the two columns may have changed places");
   }
+  std::vector<std::string> names;
+  for (const Row& row : table.rows) names.push_back(row[0].text);
+  if (auto note = formulas_note(names)) notes.push_back(std::move(*note));
   for (const Group& group : groups) notes.push_back(runs_note(group.name, group.runs));
 }
 

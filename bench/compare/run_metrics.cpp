@@ -53,6 +53,14 @@ auto effort_to(double share, double EffortSpent::*spent) {
   };
 }
 
+/// `before`: what of it was spent before the curve began.
+auto limit_of(Effort effort, double (*before)(const BeforeViews&)) {
+  return [=](const RunFigures& run, const Context& context) -> Value {
+    const double budget = context.budgets[static_cast<std::size_t>(effort)];
+    return budget > 0.0 ? Value(before(run.before) + budget) : std::nullopt;
+  };
+}
+
 Value share_percent(const RunFigures& run, const Context& context) {
   if (context.most() <= 0.0) return std::nullopt;
   return 100.0 * run.coverage_final[0] / context.most();
@@ -79,21 +87,24 @@ std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs) {
       {"F at 0.05 m (%)", true, 1, distance_score(100.0, [](const auto& d) { return d.at[1].f; })},
       {"Chamfer distance (mm)", false, 2,
        distance_score(1000.0, [](const auto& d) { return d.chamfer_m; })},
-      {"density (points/voxel)", true, 1, figure(&RunFigures::density_points_per_voxel)},
-      {"entropy reduction (nat)", true, 0, figure(&RunFigures::entropy_reduction_nat)},
-      {"views", false, 1, figure(&RunFigures::iterations)},
-      {std::string(kDistanceMetric), false, 1, figure(&RunFigures::straight_m)},
-      {"flight time (s)", false, 1, figure(&RunFigures::flight_time_s)},
+      {"density (points/voxel)", true, 1, figure(&RunFigures::density_points_per_voxel), false},
+      {"entropy reduction (nat)", true, 0, figure(&RunFigures::entropy_reduction_nat), false},
+      {"views", false, 1, figure(&RunFigures::iterations), false},
+      {std::string(kDistanceMetric), false, 1, figure(&RunFigures::straight_m), false},
+      {"flight time (s)", false, 1, figure(&RunFigures::flight_time_s), false},
   };
   for (const double share : kReachShares) {
     const std::string to = fmt::format(" to {:.0f} % of ceiling", 100.0 * share);
-    const auto add = [&](const std::string& name, double EffortSpent::*spent) {
-      metrics.push_back({name, false, 1, effort_to(share, spent)});
+    const auto add = [&](const std::string& name, double EffortSpent::*spent, auto limit) {
+      metrics.push_back({name, false, 1, effort_to(share, spent), true, limit});
     };
-    add("views" + to, &EffortSpent::views);
-    add("metres" + to, &EffortSpent::metres);
-    add("metres" + to + ", with profile", &EffortSpent::metres_with_profile);
-    add("seconds" + to + ", with profile", &EffortSpent::seconds_with_profile);
+    constexpr auto nothing = [](const BeforeViews&) { return 0.0; };
+    add("views" + to, &EffortSpent::views, limit_of(Effort::views, nothing));
+    add("metres" + to, &EffortSpent::metres, limit_of(Effort::metres, nothing));
+    add("metres" + to + ", with profile", &EffortSpent::metres_with_profile,
+        limit_of(Effort::metres, [](const auto& b) { return b.profile_m + b.transfer_m; }));
+    add("seconds" + to + ", with profile", &EffortSpent::seconds_with_profile,
+        limit_of(Effort::seconds, [](const auto& b) { return b.profile_end_s; }));
   }
   std::set<double> sizes_m;
   for (const RunFigures* run : runs) {

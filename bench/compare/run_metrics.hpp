@@ -14,8 +14,7 @@
 
 namespace gnbv {
 
-/// What a figure is relative to: the ceiling is that of the run's scenario and method, the budgets
-/// are the same for all runs of a scenario.
+/// What a figure is relative to, the same for all runs of a scenario.
 struct MetricContext {
   std::optional<Ceiling> ceiling = {};
   std::array<double, 3> budgets = {};  // of views, metres, seconds: the longest run's; 0 for none
@@ -30,6 +29,10 @@ struct RunMetric {
   int decimals = 1;
   /// Infinite for an effort to reach what a run did not get to; nothing where it is not known.
   std::function<std::optional<double>(const RunFigures& run, const MetricContext& context)> value;
+  /// Whether a method can be better by it. Nobody is for ending early, nor for reducing entropy.
+  bool is_judged = true;
+  /// Of an effort what a run that used up the budget has spent; nothing where there is no budget.
+  decltype(value) limit = {};
 };
 
 constexpr std::string_view kCoverageMetric = "coverage at 0.05 m (%)";

@@ -28,6 +28,9 @@ struct SignedRankTest {
   std::size_t n = 0;    // differences that are not 0; the others are dropped
   double w_plus = 0.0;  // sum of the ranks of positive differences; equal sizes share their ranks
   double p = 1.0;       // two-sided, exact: over all 2^n signs
+
+  /// Whether positive differences have more than half of all ranks.
+  bool is_above() const { return w_plus > 0.25 * static_cast<double>(n * (n + 1)); }
 };
 
 SignedRankTest wilcoxon_signed_rank(std::span<const double> differences);

@@ -82,13 +82,22 @@ std::vector<std::vector<std::string>> printed_lines(const TextTable& table, cons
   return lines;
 }
 
+/// What follows the key of a column in those of its plain columns.
+std::vector<const char*> endings_of(ColumnKind kind) {
+  using enum ColumnKind;
+  if (kind == estimate) return {"", "_ci95"};
+  if (kind == counted) return {"", "_runs"};
+  if (kind == tested) return {"", "_n", "_w_plus"};
+  return {""};
+}
+
 /// The keys of the plain columns that those of a table become, each with the head of its own.
 std::vector<std::array<std::string, 2>> plain_columns(const TextTable& table) {
   std::vector<std::array<std::string, 2>> all;
   for (const TableColumn& column : table.columns) {
-    all.push_back({column.key, column.head});
-    if (column.kind == ColumnKind::estimate) all.push_back({column.key + "_ci95", column.head});
-    if (column.kind == ColumnKind::counted) all.push_back({column.key + "_runs", column.head});
+    for (const char* ending : endings_of(column.kind)) {
+      all.push_back({column.key + ending, column.head});
+    }
   }
   return all;
 }
@@ -98,9 +107,8 @@ std::vector<Json> plain_cells(const TextTable& table, const std::vector<TableCel
   std::vector<Json> all;
   for (std::size_t c = 0; c < row.size(); ++c) {
     const ColumnKind kind = table.columns[c].kind;
-    const bool is_pair = kind == ColumnKind::estimate || kind == ColumnKind::counted;
     if (kind == ColumnKind::text) all.emplace_back(row[c].text);
-    for (std::size_t k = 0; kind != ColumnKind::text && k < (is_pair ? 2U : 1U); ++k) {
+    for (std::size_t k = 0; kind != ColumnKind::text && k < endings_of(kind).size(); ++k) {
       all.push_back(row[c].values[k] ? Json(*row[c].values[k]) : Json(nullptr));
     }
   }

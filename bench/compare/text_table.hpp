@@ -14,8 +14,10 @@ namespace gnbv {
 
 /// What the cells of a column are, and which plain columns CSV and JSON make of it: `text` and
 /// `number` one named by the key, `estimate` (a mean and the half width of its 95 % interval) KEY
-/// and KEY_ci95, `counted` (a number and the runs that go with it) KEY and KEY_runs.
-enum class ColumnKind { text, number, estimate, counted };
+/// and KEY_ci95, `counted` (a number and the runs that go with it) KEY and KEY_runs, `tested` (a p
+/// of the signed-rank test, the differences that it ranks, the ranks of positive ones) KEY, KEY_n
+/// and KEY_w_plus.
+enum class ColumnKind { text, number, estimate, counted, tested };
 
 struct TableColumn {
   std::string head;  // for people
@@ -30,7 +32,7 @@ struct TableColumn {
 /// A cell as people read it and, unless the column is of text, its plain numbers.
 struct TableCell {
   std::string text = "-";
-  std::array<std::optional<double>, 2> values = {};
+  std::array<std::optional<double>, 3> values = {};
 
   bool operator==(const TableCell&) const = default;
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "bench/limits/ceiling.hpp"
 #include "scenarios/load.hpp"
@@ -50,6 +49,17 @@ class CellNotes {
   std::vector<std::pair<std::string, std::vector<std::uint64_t>>> notes_;
 };
 
+/// Whether a seed keys more than the start and the planner's own draws.
+bool is_noisy(const Scenario& scenario) {
+  const auto is_noisy_camera = [](const auto& camera) {
+    return camera.noise.model != DepthNoise::none || camera.drop_probability > 0.0;
+  };
+  return scenario.vehicle.estimate.model != EstimateModel::none ||
+         scenario.wind.gust_w20_m_s > 0.0 ||
+         std::ranges::any_of(scenario.cameras, is_noisy_camera) ||
+         std::ranges::any_of(scenario.lidars, [](const auto& l) { return l.range_sigma_m > 0.0; });
+}
+
 BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
   BenchRuns collected;
   CellNotes notes, failures;
@@ -59,7 +69,8 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
       failures.add(cell, "without a result: " + why_missing(outcomes[i]));
       continue;
     }
-    ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run)};
+    ComparedRun run{cell.scenario, cell.method, cell.seed, read_run_figures(outcomes[i].run),
+                    is_noisy(cell.resolved)};
     // missions that did not end by the planner's own rules are counted as they are, and named
     const std::string& end = run.figures.termination;
     const std::string sentence = fmt::format("ended by {}, counted as it is", end);
@@ -139,24 +150,38 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
                       thread_count(options.threads));
 }
 
-Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
-                     std::vector<std::string>& notes) {
-  Ceilings ceilings;
-  std::set<std::pair<std::string, std::string>> asked;
-  std::map<std::string, Ceiling> by_content;
+Ceilings ceilings_of(const BenchRuns& runs, const std::string& baseline,
+                     const BenchOptions& options, std::vector<std::string>& notes) {
+  // by scenario and method, the first run
+  std::map<std::string, std::map<std::string, std::size_t>> firsts;
   for (std::size_t i = 0; i < runs.runs.size(); ++i) {
-    const ComparedRun& run = runs.runs[i];
-    if (!asked.insert({run.scenario, run.method}).second) continue;
+    firsts[runs.runs[i].scenario].try_emplace(runs.runs[i].method, i);
+  }
+  Ceilings ceilings;
+  std::map<std::string, Ceiling> by_content;
+  for (const auto& [scenario, methods] : firsts) {
     try {
-      const Scenario scenario = load_scenario((runs.folders[i] / kScenarioFile).string(), {});
-      const std::string content = to_yaml(what_a_ceiling_depends_on(scenario));
+      const auto flown_by = [&](std::size_t run) {
+        return load_scenario((runs.folders[run] / kScenarioFile).string(), {});
+      };
+      const auto own = methods.find(baseline);
+      const auto& [yardstick, first] = own == methods.end() ? *methods.begin() : *own;
+      const std::string content = to_yaml(what_a_ceiling_depends_on(flown_by(first)));
       if (!by_content.contains(content)) {
-        by_content.emplace(content, ceiling_of(scenario, options));
+        by_content.emplace(content, ceiling_of(flown_by(first), options));
       }
-      ceilings.emplace(std::pair(run.scenario, run.method), by_content.at(content));
-    } catch (const BadInput& error) {
+      ceilings.emplace(scenario, by_content.at(content));
+      std::vector<std::string> others;
+      for (const auto& [method, run] : methods) {
+        if (to_yaml(what_a_ceiling_depends_on(flown_by(run))) != content) others.push_back(method);
+      }
+      if (others.empty() || options.ceiling_percent) continue;
       notes.push_back(
-          fmt::format("{}, {}: no share of ceiling: {}", run.scenario, run.method, error.what()));
+          fmt::format("{}: one ceiling for all, that of {}: by their cameras, leaf or room {} "
+                      "would have another",
+                      scenario, yardstick, fmt::join(others, ", ")));
+    } catch (const BadInput& error) {
+      notes.push_back(fmt::format("{}: no share of ceiling: {}", scenario, error.what()));
     }
   }
   return ceilings;

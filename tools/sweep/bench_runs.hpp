@@ -49,10 +49,11 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path
 /// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
 
-/// The ceilings of every scenario and method, each as its first run resolved it. One that cannot be
+/// The ceiling of every scenario, as the baseline's first run resolved it (without one, that of the
+/// first method by name); the notes name the methods that would have another. One that cannot be
 /// found, its mesh being gone, is left out, and the notes say why.
-Ceilings ceilings_of(const BenchRuns& runs, const BenchOptions& options,
-                     std::vector<std::string>& notes);
+Ceilings ceilings_of(const BenchRuns& runs, const std::string& baseline,
+                     const BenchOptions& options, std::vector<std::string>& notes);
 
 /// What shares of the ceiling are of, when it is given.
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);

@@ -107,7 +107,8 @@ ComparedMissions compare_missions(const CompareRequest& request, const BenchOpti
                                     fmt::join(flown.notes, "\n")));
   }
   std::vector<std::string> notes = flown.notes;
-  const Ceilings ceilings = request.no_ceiling ? Ceilings{} : ceilings_of(flown, options, notes);
+  const Ceilings ceilings =
+      request.no_ceiling ? Ceilings{} : ceilings_of(flown, baseline, options, notes);
   if (!request.no_ceiling) add_given_ceiling_note(options, notes);
   all.comparison = compare(flown.runs, baseline, ceilings);
   TextTable table = comparison_table(all.comparison);
