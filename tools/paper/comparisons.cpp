@@ -150,7 +150,8 @@ Json compared_row(const FlownRow& row) {
 }
 
 /// The first's minus the second's, paired by seed, column by column; null where one has none.
-Json compared_pair(const FlownRow& first, const FlownRow& second) {
+/// `pairs`: how many the table has.
+Json compared_pair(const FlownRow& first, const FlownRow& second, std::size_t pairs) {
   const Values of_first = printed_values(first.printed), of_second = printed_values(second.printed);
   Json figures = Json::array();
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
@@ -168,7 +169,8 @@ Json compared_pair(const FlownRow& first, const FlownRow& second) {
     figure = {{"printed", printed},
               {"ours", ours.mean},
               {"half_width", known(ours.half_width)},
-              {"verdict", has_cut ? PaperVerdict::undecided : order_of_pair(printed, differences)}};
+              {"verdict",
+               has_cut ? PaperVerdict::undecided : order_of_pair(printed, differences, pairs)}};
   }
   return {{"first", first.printed.label},
           {"second", second.printed.label},
@@ -201,11 +203,13 @@ Json compared_table(const PaperMaterial& material, const PaperTable& table) {
   Json rows = Json::array(), pairs = Json::array();
   for (const FlownRow& row : flown) rows.push_back(compared_row(row));
   if (table.profile) rows.push_back(compared_row(flown_profile(material, table)));
+  const auto n = static_cast<std::size_t>(
+      std::ranges::count_if(flown, [](const FlownRow& row) { return !row.ours.empty(); }));
   // from the last row, which is Proposed, to the others
   for (std::size_t a = flown.size(); a-- > 0;) {
     for (std::size_t b = 0; b < a; ++b) {
       if (flown[a].ours.empty() || flown[b].ours.empty()) continue;
-      pairs.push_back(compared_pair(flown[a], flown[b]));
+      pairs.push_back(compared_pair(flown[a], flown[b], n * (n - 1) / 2));
     }
   }
   return {{"scenario", table.scenario},

@@ -12,6 +12,7 @@
 namespace gnbv {
 namespace {
 
+constexpr double kLevel = 0.05;
 constexpr double kHoldsShare = 0.95;
 constexpr double kPartlyShare = 0.5;
 constexpr double kHoldsTrend = 0.8;
@@ -28,12 +29,11 @@ PaperVerdict agreement(const MeanEstimate& ours, double printed, bool is_coverag
   return is_inside ? PaperVerdict::undecided : PaperVerdict::differs;
 }
 
-PaperVerdict order_of_pair(double printed, std::span<const double> ours) {
+PaperVerdict order_of_pair(double printed, std::span<const double> ours, std::size_t pairs) {
   if (printed == 0.0) return PaperVerdict::tied;
-  if (ours.size() < 2) return PaperVerdict::undecided;
-  const MeanEstimate difference = estimate_mean(ours);
-  if (std::abs(difference.mean) <= *difference.half_width) return PaperVerdict::undecided;
-  return (difference.mean > 0.0) == (printed > 0.0) ? PaperVerdict::same : PaperVerdict::reversed;
+  const SignedRankTest test = wilcoxon_signed_rank(ours);
+  if (static_cast<double>(pairs) * test.p > kLevel) return PaperVerdict::undecided;
+  return test.is_above() == (printed > 0.0) ? PaperVerdict::same : PaperVerdict::reversed;
 }
 
 PaperVerdict claim_of_share(double share) {

@@ -18,7 +18,7 @@ enum class PaperVerdict {
   differs,
   cut,  // it differs, or cannot be told, but a limit of ours ended missions before the paper's
   // whether two planners stand to each other as in the paper, or else it is undecided
-  same,      // our 95 % interval of the paired difference excludes 0 on the paper's side
+  same,      // the signed-rank test of the paired differences rejects at 5 %, on the paper's side
   reversed,  // on the other side
   tied,      // the paper prints the same number for both
   // what becomes of a sentence of the paper
@@ -43,9 +43,10 @@ NLOHMANN_JSON_SERIALIZE_ENUM(PaperVerdict, {{PaperVerdict::agrees, "agrees"},
 /// differs.
 PaperVerdict agreement(const MeanEstimate& ours, double printed, bool is_coverage);
 
-/// `printed` is the paper's difference, `ours` the differences over the seeds that both flew. With
-/// fewer than two of them nothing is decided.
-PaperVerdict order_of_pair(double printed, std::span<const double> ours);
+/// `printed` is the paper's difference, `ours` the differences over the seeds that both flew; p is
+/// multiplied by `pairs`, how many of planners are compared (Bonferroni). Fewer than six seeds
+/// decide nothing.
+PaperVerdict order_of_pair(double printed, std::span<const double> ours, std::size_t pairs);
 
 /// Of a sentence that says "always": in at least 95 % of the cases, at least half of them, fewer.
 /// Requires a share in [0, 1].

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "bench/limits/ceiling.hpp"
 #include "scenarios/load.hpp"

@@ -117,6 +117,10 @@ TEST(ComparedRow, OfTheProfileCountsEachSeedOnce) {
 
 TEST(ComparedPair, IsPairedBySeed) {
   PaperMaterial material = made_material();
+  for (std::uint64_t seed = 3; seed <= 6; ++seed) {  // the test asks for six
+    material.missions.push_back(made_mission("bircher", seed, 360, 0.0015));
+    material.missions.push_back(made_mission("isler", seed, 100));
+  }
   material.missions.push_back(made_mission("isler", 7, 100));  // nobody else flew seed 7
   const Json pairs = plant(material)["pairs"];
   ASSERT_EQ(pairs.size(), 1U);  // nothing of Proposed, which was not flown

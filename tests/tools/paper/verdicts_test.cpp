@@ -37,18 +37,20 @@ TEST(Agreement, OfAnAmountDoesNotDependOnItsUnit) {
   }
 }
 
-TEST(PairOrder, FollowsTheSignsAndDecidesNothingAroundZero) {
-  const std::vector<double> above = {3.0, 4.0, 5.0, 4.0};
-  const std::vector<double> below = {-3.0, -4.0, -5.0, -4.0};
-  const std::vector<double> around = {-3.0, 4.0, -5.0, 6.0};
-  EXPECT_EQ(order_of_pair(1.0, above), PaperVerdict::same);
-  EXPECT_EQ(order_of_pair(-1.0, below), PaperVerdict::same);
-  EXPECT_EQ(order_of_pair(-1.0, above), PaperVerdict::reversed);
-  EXPECT_EQ(order_of_pair(1.0, below), PaperVerdict::reversed);
-  EXPECT_EQ(order_of_pair(1.0, around), PaperVerdict::undecided);
-  EXPECT_EQ(order_of_pair(1.0, std::vector<double>{9.0}), PaperVerdict::undecided);
-  EXPECT_EQ(order_of_pair(1.0, {}), PaperVerdict::undecided);
-  EXPECT_EQ(order_of_pair(0.0, above), PaperVerdict::tied);
+TEST(PairOrder, FollowsTheSignsAndDecidesNothingWhereTheTestDoesNot) {
+  const std::vector<double> above = {3.0, 4.0, 5.0, 4.5, 3.5, 6.0};
+  const std::vector<double> below = {-3.0, -4.0, -5.0, -4.5, -3.5, -6.0};
+  const std::vector<double> around = {-3.0, 4.0, -5.0, 6.0, 3.5, -2.0};
+  const std::vector<double> five = {4.0, 4.1, 4.2, 4.3, 4.4};  // Student's interval excludes 0
+  EXPECT_EQ(order_of_pair(1.0, above, 1), PaperVerdict::same);
+  EXPECT_EQ(order_of_pair(-1.0, below, 1), PaperVerdict::same);
+  EXPECT_EQ(order_of_pair(-1.0, above, 1), PaperVerdict::reversed);
+  EXPECT_EQ(order_of_pair(1.0, below, 1), PaperVerdict::reversed);
+  EXPECT_EQ(order_of_pair(1.0, above, 2), PaperVerdict::undecided);  // p = 2 x 0.03125
+  EXPECT_EQ(order_of_pair(1.0, around, 1), PaperVerdict::undecided);
+  EXPECT_EQ(order_of_pair(1.0, five, 1), PaperVerdict::undecided);
+  EXPECT_EQ(order_of_pair(1.0, {}, 1), PaperVerdict::undecided);
+  EXPECT_EQ(order_of_pair(0.0, above, 1), PaperVerdict::tied);
 }
 
 TEST(Claim, OfAlwaysAllowsOneCaseInTwenty) {

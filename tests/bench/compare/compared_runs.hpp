@@ -1,0 +1,53 @@
+// Missions made by hand, and what a comparison of them says.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "bench/compare/comparison.hpp"
+
+namespace gnbv {
+
+inline ComparedRun run(const std::string& method, std::uint64_t seed, double coverage,
+                       double metres, const std::string& scenario = "aircraft") {
+  ComparedRun r{scenario, method, seed, {}};
+  r.figures.coverage_final = {coverage, coverage, coverage};
+  r.figures.straight_m = metres;
+  r.figures.iterations = 2;
+  r.figures.curve = {.coverage = {{0.0, 0.0, 0.0}, {coverage, 0.0, 0.0}},
+                     .metres = {0.0, metres},
+                     .seconds = {0.0, 10.0}};
+  return r;
+}
+
+/// A run that covers a tenth of the ceiling more with each of its views of 10 m.
+inline ComparedRun climbing(const std::string& method, std::uint64_t seed, int views,
+                            double metres) {
+  ComparedRun r = run(method, seed, 0.1 * views, metres * views);
+  r.figures.curve = {};
+  for (int view = 0; view <= views; ++view) {
+    r.figures.curve.coverage.push_back({0.1 * view + 1e-9, 0.0, 0.0});
+    r.figures.curve.metres.push_back(metres * view);
+    r.figures.curve.seconds.push_back(view);
+  }
+  r.figures.before = {.profile_m = 100.0, .transfer_m = 5.0, .profile_end_s = 60.0};
+  return r;
+}
+
+constexpr std::string_view kTo90 = "metres to 90 % of ceiling";
+
+inline Ceilings ceiling_at(double coverage, const std::string& scenario = "aircraft") {
+  Ceilings one;
+  one[scenario].leaf_counted = {coverage, 1.0, 1.0};
+  return one;
+}
+
+inline bool notes_say(const Comparison& comparison, std::string_view words) {
+  const TextTable table = comparison_table(comparison);
+  return std::any_of(table.notes.begin(), table.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+}  // namespace gnbv
