@@ -229,6 +229,9 @@ std::vector<std::string> notes_of(const TextTable& table, const PaperTable& pape
         "† as printed: more coverage at 0.05 m than at 0.10 m is hardly possible by the paper's "
         "own definition; the two columns may have changed places");
   }
+  std::vector<std::string> names;
+  for (const Row& row : table.rows) names.push_back(row[0].text);
+  if (auto note = formulas_note(names)) notes.push_back(std::move(*note));
   for (const PaperGroup& group : groups) notes.push_back(missions_note(group));
   return notes;
 }

@@ -32,7 +32,7 @@ def test_compare_flies_what_is_missing_and_judges_the_runs_of_its_folder(run, tm
     assert bircher['verdict'] == 'too few seeds'
     assert 'smoke: the start is what varies' in str(table['notes'])
     assert 'gain formulas of those papers' in str(table['notes'])
-    assert rows(table, 'AUC over metres (%)') and rows(table, 'share of ceiling at 0.05 m (%)')
+    assert rows(table, 'mean coverage over metres (%)') and rows(table, 'share of ceiling at 0.05 m (%)')
     # four views are too few for any share of the ceiling
     assert not rows(table, 'metres to 80 % of ceiling')
     assert 'smoke: no run got to 80 % of ceiling' in str(table['notes'])

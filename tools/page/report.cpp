@@ -53,18 +53,18 @@ TextTable table_of(const TableRuns& of) {
   std::vector<std::string> notes;
   const std::vector<RunGroup> groups = group_runs(of.records, notes);
   const std::vector<std::string> labels = setting_labels(groups);
-  std::vector<RunFigures> runs;
-  std::vector<std::string> settings;
+  std::vector<MissionRow> rows;
   bool has_papers = false;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (const RunRecord* const record : groups[i].runs) {
-      runs.push_back(*record->figures);
-      settings.push_back(labels[i]);
+      MissionRow& row = rows.emplace_back(mission_row(*record->figures));
+      row.setting = labels[i];
+      if (of.ceiling) add_ceiling(*record->figures, *of.ceiling, row);
       has_papers = has_papers || has_papers_setting(record->scenario);
     }
   }
-  const std::string& scenario = runs.at(0).scenario;
-  const std::string& structure = runs.at(0).structure;
+  const std::string& scenario = rows.at(0).scenario;
+  const std::string& structure = rows.at(0).structure;
   const PaperTable* const paper = find_paper_table(scenario);
   const std::string title = structure == scenario
                                 ? human_name(scenario)
@@ -73,10 +73,10 @@ TextTable table_of(const TableRuns& of) {
       .scenario = scenario, .source = title, .rows = {}, .profile = {}, .mesh_sha256 = ""};
   const bool is_of_structure = paper != nullptr && is_papers_structure(*paper, structure);
   const PaperTable& beside = is_of_structure && has_papers ? *paper : none;
-  for (RunFigures& run : runs) {
-    if (name_in_table(beside, run.utility) == run.utility) run.utility = human_name(run.utility);
+  for (MissionRow& row : rows) {
+    if (name_in_table(beside, row.method) == row.method) row.method = human_name(row.method);
   }
-  TextTable table = comparison_table(beside, runs, of.ceiling, settings);
+  TextTable table = comparison_table(beside, rows);
   if (&beside == paper) {
     table.notes.emplace_back(
         "entropy reduction: the paper does not say whether voxels at a clamping bound count, ours "

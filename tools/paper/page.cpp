@@ -87,13 +87,13 @@ Json counts_json(const Json& tables, const Json& claims) {
 /// As `gnbv table` prints it, at the end of every mission.
 void write_whole_table(const PaperMaterial& material, const PaperTable& paper,
                        const std::string& command, const fs::path& folder) {
-  std::vector<RunFigures> runs;
+  std::vector<MissionRow> rows;
   for (const PaperRow& row : paper.rows) {
     for (const PaperMission* mission : missions_of(material, paper.scenario, row.utility)) {
-      runs.push_back(*mission->record.figures);
+      rows.push_back(mission_row(*mission->record.figures));
     }
   }
-  TextTable table = comparison_table(paper, runs, {});
+  TextTable table = comparison_table(paper, rows);
   table.notes.push_back(fmt::format("{}, version {}", command, GNBV_VERSION));
   const std::string file = (folder / kTablesFolder / paper.scenario).string();
   write_file_atomically(file + ".md", markdown_text(table));

@@ -2,12 +2,50 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/compare/comparison.hpp"
 
 namespace gnbv {
+
+struct ComparedRun {
+  std::string scenario;
+  std::string method;
+  std::uint64_t seed = 0;
+  RunFigures figures = {};
+  bool is_noisy = false;
+};
+
+/// By scenario.
+using Ceilings = std::map<std::string, Ceiling>;
+
+/// Within the budgets of the longest run of each scenario.
+inline Comparison compare(std::vector<ComparedRun> runs, const std::string& baseline,
+                          const Ceilings& ceilings) {
+  std::map<std::string, Budgets> budgets;
+  for (const ComparedRun& run : runs) {
+    const CoverageCurve& curve = run.figures.curve;
+    for (std::size_t i = 0; i < kEffortNames.size() && !curve.coverage.empty(); ++i) {
+      double& budget = budgets[run.scenario][i];
+      budget = std::max(budget, effort_at(curve, static_cast<Effort>(i), curve.views()));
+    }
+  }
+  std::vector<MissionRow> rows;
+  for (ComparedRun& run : runs) {
+    run.figures.budgets = budgets[run.scenario];
+    MissionRow& row = rows.emplace_back(mission_row(run.figures));
+    row.scenario = run.scenario;
+    row.method = run.method;
+    row.seed = run.seed;
+    row.figures["noisy"] = run.is_noisy ? 1.0 : 0.0;
+    const auto ceiling = ceilings.find(run.scenario);
+    if (ceiling != ceilings.end()) add_ceiling(run.figures, ceiling->second, row);
+  }
+  return compare(rows, baseline);
+}
 
 inline ComparedRun run(const std::string& method, std::uint64_t seed, double coverage,
                        double metres, const std::string& scenario = "aircraft") {

@@ -124,13 +124,13 @@ TEST(Compare, MethodsThatFlewTheSameMissionsAreNamed) {
   EXPECT_FALSE(notes_say(compare(runs, "base", {}), "the very missions"));
 }
 
-TEST(Compare, BudgetsOfAreasAreTheLongestRuns) {
+TEST(Compare, MeanCoverageIsOverTheBudgetOfTheScenario) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
   EXPECT_EQ(c.budgets[0][1], 200.0);
   // nothing up to 50 m, then 0.8: mean over 200 m is 0.8 (1 - 50/200)
-  EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 0)->estimate.mean, 60.0, 1e-9);
-  EXPECT_NEAR(find_figure(c, 0, "AUC over metres (%)", 1)->estimate.mean, 0.0, 1e-9);
+  EXPECT_NEAR(find_figure(c, 0, "mean coverage over metres (%)", 0)->estimate.mean, 60.0, 1e-9);
+  EXPECT_NEAR(find_figure(c, 0, "mean coverage over metres (%)", 1)->estimate.mean, 0.0, 1e-9);
 }
 
 TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
@@ -138,7 +138,7 @@ TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
   runs[0].figures.curve = {};
   const Comparison c = compare(runs, "base", {});
   for (const std::string_view metric :
-       {"AUC over views (%)", "F at 0.05 m (%)", "share of ceiling at 0.05 m (%)",
+       {"mean coverage over views (%)", "F at 0.05 m (%)", "share of ceiling at 0.05 m (%)",
         "metres to 90 % of ceiling"}) {
     EXPECT_EQ(find_figure(c, 0, metric, 0), nullptr) << metric;
   }
@@ -253,7 +253,7 @@ TEST(Compare, TableHasAllFormsAndOneCellAColumn) {
   const TextTable table = comparison_table(compare(clear_cut(3), "base", {}));
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   for (const std::string_view format : kTableFormats) {
-    EXPECT_NE(formatted_text(table, format).find("AUC"), std::string::npos) << format;
+    EXPECT_NE(formatted_text(table, format).find("mean coverage"), std::string::npos) << format;
   }
 }
 
