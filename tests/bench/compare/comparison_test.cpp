@@ -152,6 +152,7 @@ TEST(Compare, AllMethodsOfAScenarioHaveOneCeiling) {
   const auto share = [&](std::size_t scenario, std::size_t method) {
     return find_figure(c, scenario, "share of ceiling at 0.05 m (%)", method);
   };
+  ASSERT_NE(share(0, 1), nullptr);
   EXPECT_NEAR(share(0, 0)->estimate.mean, 80.0, 1e-9);
   EXPECT_NEAR(share(0, 1)->estimate.mean, 160.0, 1e-9);
   EXPECT_EQ(share(1, 1), nullptr);  // without a ceiling no share
