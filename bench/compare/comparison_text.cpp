@@ -265,13 +265,15 @@ std::vector<std::string> answers(const Comparison& comparison) {
       const MethodFigure* const coverage = find_figure(comparison, s, kCoverageMetric, m);
       const MethodFigure* const distance = find_figure(comparison, s, kDistanceMetric, m);
       const std::string who = fmt::format("{}: {}", comparison.scenarios[s], comparison.methods[m]);
-      if (coverage == nullptr || !coverage->contrast || !distance->contrast) {
+      if (coverage == nullptr || !coverage->contrast) {
         lines.push_back(fmt::format("{} has no {} in common with {}", who, pair, baseline));
         continue;
       }
-      lines.push_back(fmt::format("{} {} {}", who,
-                                  coverage_answer(*coverage->contrast, baseline, pair),
-                                  distance_answer(*distance->contrast)));
+      lines.push_back(
+          fmt::format("{} {}", who, coverage_answer(*coverage->contrast, baseline, pair)));
+      if (distance != nullptr && distance->contrast) {
+        lines.back() += " " + distance_answer(*distance->contrast);
+      }
     }
   }
   return lines;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "bench/compare/paper_figures.hpp"
 #include "bench/limits/ceiling.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
@@ -100,6 +101,10 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
     row.program = program_of_rows();
     const Scenario flown = load_scenario((folder / kScenarioFile).string(), {});
     row.figures["noisy"] = is_noisy(flown) ? 1.0 : 0.0;
+    const PaperTable* const paper = find_paper_table(flown.name);
+    const bool is_papers = paper != nullptr && is_papers_structure(*paper, row.structure);
+    row.figures["papers_structure"] = is_papers ? 1.0 : 0.0;
+    row.figures["papers_setting"] = has_papers_setting(flown) ? 1.0 : 0.0;
     collected.rows.push_back(std::move(row));
     collected.folders.push_back(folder);
   }

@@ -112,9 +112,9 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
   return command + (request.no_oracle ? " --no-oracle" : "");
 }
 
-/// What rows alone say.
+/// What rows alone say, and the command that flew them.
 BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
-                      const std::vector<std::string>& notes) {
+                      const std::string& command) {
   TextTable text = comparison_table(paper, runs.rows);
   const TextTable effort = effort_table(paper, runs.rows);
   const bool has_exact = std::ranges::count(runs.rows, kExact, &MissionRow::setting) > 0;
@@ -124,9 +124,18 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
         "ours lies above the ceiling");
   }
   add_given_ceiling_note(options, text.notes);
-  for (const auto* more : {&notes, &runs.notes}) {
-    text.notes.insert(text.notes.end(), more->begin(), more->end());
+  const auto is_papers = [&](std::string_view figure) {
+    return std::ranges::all_of(
+        runs.rows, [&](const MissionRow& row) { return row.find(figure).value_or(1.0) > 0.0; });
+  };
+  if (!is_papers("papers_structure")) {
+    text.notes.push_back(fmt::format(
+        "ours is of {}, which is not known to be the structure that the paper's figures are of",
+        runs.rows.front().structure));
   }
+  if (!is_papers("papers_setting")) text.notes.emplace_back(kOtherSetting);
+  text.notes.insert(text.notes.end(), runs.notes.begin(), runs.notes.end());
+  if (!command.empty()) text.notes.push_back(command);
   // people read two narrow tables, machines one wide one
   if (options.format == "csv" || options.format == "json") {
     return {{with_columns_of(text, effort, kSharedColumns)}, runs.failures};
@@ -155,17 +164,9 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
       (runs.*list).insert((runs.*list).end(), (again.*list).begin(), (again.*list).end());
     }
   }
-  std::vector<std::string> notes;
-  const std::string structure = structure_name(first.structure);
-  if (!is_papers_structure(paper, structure)) {
-    notes.push_back(fmt::format(
-        "ours is of {}, which is not known to be the structure that the paper's figures are of",
-        request.scenario.mesh.empty() ? structure : request.scenario.mesh));
-  }
-  if (!has_papers_setting(cells.front().resolved)) notes.emplace_back(kOtherSetting);
-  notes.push_back(
+  return tables_of(
+      paper, runs, options,
       fmt::format("{}, version {}", command_of(request, options, first.seed), GNBV_VERSION));
-  return tables_of(paper, runs, options, notes);
 }
 
 }  // namespace gnbv

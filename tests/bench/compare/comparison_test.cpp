@@ -135,7 +135,7 @@ TEST(Compare, MeanCoverageIsOverTheBudgetOfTheScenario) {
 
 TEST(Compare, WhatWasNotMeasuredIsNotCompared) {
   std::vector<ComparedRun> runs = clear_cut(2);
-  runs[0].figures.curve = {};
+  for (ComparedRun& run : runs) run.figures.curve = {};
   const Comparison c = compare(runs, "base", {});
   for (const std::string_view metric :
        {"mean coverage over views (%)", "F at 0.05 m (%)", "share of ceiling at 0.05 m (%)",

@@ -1,0 +1,148 @@
+"""Missions as rows: tables are printed from them, what they hold is not flown again, and what they
+say can be recomputed by others."""
+import csv
+import hashlib
+import json
+import os
+import subprocess
+
+import pytest
+from program import REPOSITORY, summary
+
+TINY = '--quiet --no-oracle --set planner.termination.max_iterations=3'
+TABLE = f'table lab_model --seeds 2 {TINY} --missions rows.csv --commit abc'
+
+
+def rows_of(path):
+    with path.open(newline='') as lines:
+        return list(csv.DictReader(lines))
+
+
+def write_rows(path, rows):
+    with path.open('w', newline='') as lines:
+        writer = csv.DictWriter(lines, rows[0].keys(), lineterminator='\n')
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def flown(folder):
+    return {path: path.stat().st_mtime_ns for path in folder.glob('*/cells/*/summary.json')}
+
+
+def test_rows_say_what_their_runs_do_and_tables_need_no_more(run, tmp_path):
+    first = run(f'{TABLE} --out out --format json')
+    rows = rows_of(tmp_path / 'rows.csv')
+    runs = {s['result_sha256']: s for s in map(summary, (p.parent for p in flown(tmp_path)))}
+    assert len(rows) == len(runs) == 4  # proposed and the tour
+    for row in rows:
+        its = runs[row['result_sha256']]
+        assert row['commit'] == 'abc' and row['termination'] == its['termination']
+        assert float(row['coverage_0.05']) == its['coverage']['final']['0.05']
+        assert float(row['mean_coverage_metres']) == its['mean_coverage']['metres']
+        assert float(row['budget_seconds']) == its['budget']['seconds'] == 480
+        reached = float(row['coverage_0.05']) >= 0.9 * float(row['ceiling_0.05'])
+        assert (float(row['metres_to_0.90']) < float('inf')) == reached
+    table, printed = first.json, run('table --from rows.csv --format json').json
+    assert printed['rows'] == table['rows']
+    unknown = [note for note in table['notes'] if note not in printed['notes']]
+    assert [note.startswith('gnbv table lab_model') for note in unknown] == [True]
+    run(f'{TABLE} --out elsewhere --format json')
+    assert not list(tmp_path.glob('elsewhere/cells/*')), 'it flew what the rows hold'
+    run('table lab_model --from rows.csv', 'excludes', code=2)
+
+
+def test_rows_of_another_program_hold_as_long_as_a_sample_does(run, tmp_path):
+    run(f'{TABLE} --out out')
+    rows = rows_of(tmp_path / 'rows.csv')
+    for row in rows:
+        row['program'] = 'another'
+    write_rows(tmp_path / 'rows.csv', rows)
+    run(f'{TABLE} --out again')
+    assert len(flown(tmp_path)) == 4 + 2, 'of each method the first seed'
+    assert [row['program'] for row in rows_of(tmp_path / 'rows.csv')] == ['another'] * 4
+    for row in rows:
+        if row['method'] == 'tour':
+            row['result_sha256'] = 'false'
+    write_rows(tmp_path / 'rows.csv', rows)
+    run(f'{TABLE} --out third')
+    now = {(row['method'], row['seed']): row for row in rows_of(tmp_path / 'rows.csv')}
+    assert len(flown(tmp_path)) == 4 + 2 + 3, 'the sample, and the other tour'
+    assert now['proposed', '2']['program'] == 'another' != now['tour', '2']['program']
+    assert 'false' not in {row['result_sha256'] for row in now.values()}
+
+
+@pytest.mark.parametrize('change, says', [
+    (lambda text: text.replace('result_sha256', 'hash', 1), "rows.csv:1: has no column 'result_"),
+    (lambda text: text.replace('proposed', 'proposed,', 1), 'rows.csv:2: '),
+    (lambda text: text + text.splitlines()[1] + '\n', 'a second row of lab_model, proposed'),
+    (lambda text: text.replace(',inf', ',often', 1), "`often` is not a number"),
+    (lambda text: text.splitlines()[0], 'holds no missions')])
+def test_damaged_rows_are_refused_by_line(run, tmp_path, change, says):
+    file = tmp_path / 'rows.csv'
+    run(f'{TABLE} --out out')
+    file.write_text(change(file.read_text()))
+    run('table --from rows.csv', 'rows.csv', says, code=2)
+
+
+def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
+    stats = pytest.importorskip('scipy.stats')
+    # rows need no missions: six structures, three seeds, a tie, a difference of nothing
+    columns = ['id', 'scenario', 'structure', 'structure_sha256', 'method', 'setting', 'commit',
+               'program', 'termination', 'result_sha256', 'seed', 'within_coverage_0.05']
+    rows, by_structure = [], {}
+    for s in range(8):
+        for m, method in enumerate(('base', 'own')):
+            values = [0.8 + 0.01 * s + 0.002 * seed + m * (0.004 * (s % 4) - 0.003) for seed in range(3)]
+            by_structure[method, s] = sum(values) / 3
+            rows += [dict(zip(columns, (f'{s}{m}{seed}', f'scene {s}', f's{s}', '', method, '', 'c',
+                                        'p', 'max_iterations', f'{s}{m}{seed}', seed, value)))
+                     for seed, value in enumerate(values)]
+    write_rows(tmp_path / 'rows.csv', rows)
+    table = run('compare --from rows.csv --baseline base --format json').json
+    own = next(row for row in table['rows'] if row['method'] == 'own'
+               and row['scenario'] == 'all 8 structures')
+    differences = [100 * (by_structure['own', s] - by_structure['base', s]) for s in range(8)]
+    test = stats.wilcoxon([round(d, 9) for d in differences], method=stats.PermutationMethod(10**6))
+    assert own['p'] == pytest.approx(test.pvalue, abs=1e-9)
+    low, high = stats.t.interval(0.95, 7, loc=sum(differences) / 8, scale=stats.sem(differences))
+    assert own['difference'] == pytest.approx((low + high) / 2)
+    assert own['difference_ci95'] == pytest.approx((high - low) / 2)
+
+
+def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
+    for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
+        drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json
+        digest = hashlib.sha256(f'0123abcd {kind} {draw}'.encode()).hexdigest()
+        assert drawn['seed'] == int(digest[:8], 16)
+    run('asset random --drawn-from 0123abcd -o m.ply', '--kind', code=2)
+
+
+def results(gnbv, *words, code=0, **environment):
+    end = subprocess.run([REPOSITORY / 'tools/results', *map(str, words)], capture_output=True,
+                         text=True, env=os.environ | {'GNBV': str(gnbv.path)} | environment)
+    assert end.returncode == code, end.stdout + end.stderr
+    return end.stdout + end.stderr
+
+
+def test_one_command_flies_prints_and_says_what_is_stale(gnbv, tmp_path):
+    there = ['--seeds', 1, '--set', 'planner.termination.max_iterations=2', '--out',
+             tmp_path / 'out', '--to', tmp_path / 'to', '--only', 'lab_model', '--only', 'a340']
+    nothing = {'GNBV_SHARED_MESHES': str(tmp_path)}
+    assert 'a340: left out: no ' in results(gnbv, *there, **nothing)
+    table = tmp_path / 'to/lab_model.md'
+    assert table.read_text().startswith('<!-- gnbv table --from missions/lab_model.csv; commit ')
+    assert 'flown with gnbv table lab_model -->' in table.read_text()
+    before = flown(tmp_path)
+    assert before and table.name not in results(gnbv, *there, **nothing) and flown(tmp_path) == before
+    results(gnbv, '--check', *there)
+    table.write_text(table.read_text().replace('ours', 'theirs', 1))
+    assert f'stale: {table}' in results(gnbv, '--check', *there, code=1)
+    assert 'theirs' in table.read_text(), 'a check writes nothing'
+    results(gnbv, '--print', *there)
+    results(gnbv, '--check', *there)
+    for bad in (['--only', 'moon'], ['--seeds', 'none'], ['--seeds', '0'], ['--sedes', '3']):
+        results(gnbv, *bad, code=2)
+
+
+def test_the_numbers_of_the_documents_are_those_of_the_rows(gnbv):
+    results(gnbv, '--check')
