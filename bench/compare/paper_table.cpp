@@ -31,6 +31,8 @@ using Seeds = std::vector<const RunFigures*>;
 /// not there.
 using Reached = std::map<std::string, double>;
 
+constexpr const char* kAccurateKey = "accurate_0.05";
+
 std::string coverage_key(double size_m) { return "coverage_" + size_name(size_m); }
 
 /// After so many views, or at its end if that was before. Of entropy and density only the end is
@@ -50,6 +52,11 @@ Reached after_views(const RunFigures& run, std::size_t views) {
   for (const SizedCoverage& at : run.more) {
     reached[coverage_key(at.size_m)] = views < at.curve.size() ? at.curve[views] : at.final;
   }
+  if (const auto& accurate = run.curve.accurate; is_cut && views < accurate.size()) {
+    reached[kAccurateKey] = accurate[views][0];
+  } else if (!is_cut && run.coverage_accurate) {
+    reached[kAccurateKey] = run.coverage_accurate->front();
+  }
   return reached;
 }
 
@@ -66,6 +73,7 @@ Reached after_profile(const RunFigures& run) {
     reached[coverage_key(kCoverageSizes_m[i])] = run.coverage_profile[i];
   }
   for (const SizedCoverage& at : run.more) reached[coverage_key(at.size_m)] = at.profile;
+  if (!run.curve.accurate.empty()) reached[kAccurateKey] = run.curve.accurate.front()[0];
   return reached;
 }
 
@@ -104,6 +112,9 @@ std::vector<TableColumn> columns_of(std::span<const RunFigures> runs,
                                       {"Entropy reduction", "entropy_reduction", estimate},
                                       {"Distance (m)", "distance_m", estimate, 1},
                                       {"Time (min)", "time_min", estimate, 1}};
+  if (std::ranges::any_of(runs, &RunFigures::is_noisy)) {
+    columns.push_back({"Accurate 0.05 m", kAccurateKey, estimate, 1, true});
+  }
   std::set<double> more_m;
   for (const RunFigures& run : runs) {
     for (const SizedCoverage& at : run.more) more_m.insert(at.size_m);
@@ -358,6 +369,11 @@ void add_notes(TextTable& table, const PaperTable& paper, const std::vector<Grou
   notes.push_back(
       fmt::format("coverage: of voxels of that size, ours of those {}",
                   reference_words(groups.empty() ? 0 : groups[0].runs[0]->area_samples)));
+  if (std::ranges::any_of(table.columns, [](const auto& c) { return c.key == kAccurateKey; })) {
+    notes.emplace_back(
+        "accurate: of the same, those with a point within 0.01 m of the surface, so that noise "
+        "fills none");
+  }
   if (std::any_of(table.rows.begin(), table.rows.end(),
                   [](const Row& row) { return row[1].text == kCut; })) {
     notes.emplace_back(kCutNote);

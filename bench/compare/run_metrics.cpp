@@ -29,6 +29,11 @@ auto coverage_percent(std::size_t size) {
   };
 }
 
+Value accurate_percent(const RunFigures& run, const Context&) {
+  if (!run.coverage_accurate) return std::nullopt;
+  return 100.0 * run.coverage_accurate->front();
+}
+
 auto area_percent(Effort effort) {
   return [=](const RunFigures& run, const Context& context) -> Value {
     const double budget = context.budgets[static_cast<std::size_t>(effort)];
@@ -72,6 +77,7 @@ std::vector<RunMetric> metrics_of(std::span<const RunFigures* const> runs) {
       {std::string(kCoverageMetric), true, 1, coverage_percent(0)},
       {"coverage at 0.10 m (%)", true, 1, coverage_percent(1)},
       {"coverage at 0.50 m (%)", true, 1, coverage_percent(2)},
+      {"accurate coverage at 0.05 m (%)", true, 1, accurate_percent},
       {"share of ceiling at 0.05 m (%)", true, 1, share_percent},
       {"AUC over views (%)", true, 1, area_percent(Effort::views)},
       {"AUC over metres (%)", true, 1, area_percent(Effort::metres)},

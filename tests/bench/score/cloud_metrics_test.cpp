@@ -36,7 +36,7 @@ std::vector<Vec3f> points_above_sheet(double spacing_m, double height_m, double 
 
 CloudDistances distances(const RayScene& scene, std::span<const Vec3f> cloud,
                          std::span<const Vec3f> samples) {
-  return cloud_distances(scene, cloud, cloud, samples, 2);
+  return cloud_distances(distances_to_structure_m(scene, cloud, 2), cloud, samples, 2);
 }
 
 TEST(CloudDistances, OfAParallelSheetAreItsHeightUpToAMetre) {
