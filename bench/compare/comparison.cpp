@@ -213,7 +213,7 @@ std::vector<std::string> add_scenarios(Comparison& comparison,
       }
     }
     structures[scenario] = std::min(structures[scenario], structure);
-    if (mission.find("noisy").value_or(0.0) > 0.0) comparison.is_noisy[scenario] = true;
+    if (mission.find("seeds_key_noise").value_or(0.0) > 0.0) comparison.is_noisy[scenario] = true;
     index_in(comparison.methods, mission.method);
   }
   comparison.metrics = metrics_of(missions);

@@ -37,6 +37,10 @@ void add_after(std::string_view prefix, const RunFigures& run, std::size_t views
     figures[name("time_min")] = seconds_of_views(curve, std::min(views, curve.views())) / 60.0;
   }
   add_coverage(prefix, is_cut ? curve.coverage[views] : run.coverage_final, figures);
+  if (run.coverage_accurate && (!is_cut || views < curve.accurate.size())) {
+    add_coverage(name("accurate_"), is_cut ? curve.accurate[views] : *run.coverage_accurate,
+                 figures);
+  }
   add_more(
       prefix, run,
       [&](const SizedCoverage& at) { return views < at.curve.size() ? at.curve[views] : at.final; },
@@ -89,6 +93,7 @@ Figures figures_of(const RunFigures& run) {
                      {"flight_time_s", run.flight_time_s},
                      {"energy_wh", run.energy_wh},
                      {"wall_s", run.wall_s},
+                     {"noisy", run.is_noisy ? 1.0 : 0.0},
                      {"area_samples", static_cast<double>(run.area_samples)},
                      {"profile_distance_m", run.before.profile_m}};
   if (run.distances.at[1].distance_m > 0.0) {  // runs that an older version scored have none
@@ -100,6 +105,9 @@ Figures figures_of(const RunFigures& run) {
   add_more(
       kProfile, run, [](const SizedCoverage& at) { return at.profile; }, figures);
   add_coverage("raw_", run.coverage_final_raw, figures);
+  if (!run.curve.accurate.empty()) {
+    add_coverage("profile_accurate_", run.curve.accurate.front(), figures);
+  }
   const PaperTable* const paper = find_paper_table(run.scenario);
   const PaperRow* const row = paper == nullptr ? nullptr : find_row(*paper, run.utility);
   const auto papers_views = static_cast<std::size_t>(row ? row->iterations.value_or(0) : 0);

@@ -45,7 +45,8 @@ constexpr std::string_view kWithProfile = "_with_profile";  // behind an effort
 
 /// A run as a row, named by its own scenario and utility. Figures: iterations, distance_m, time_min
 /// and coverage_0.05 (and so on for each size), with each prefix, kCut where the paper has a row of
-/// this utility in this scenario and the run took more views; raw_coverage_*; entropy_reduction,
+/// this utility in this scenario and the run took more views; the
+/// same as accurate_coverage_*; raw_coverage_*; noisy (1 or 0); entropy_reduction,
 /// density_points_per_voxel, flown_m, flight_time_s, energy_wh, wall_s, f_0.05, chamfer_m,
 /// area_samples; budget_* (of metres and seconds also kWithProfile) and mean_coverage_* by
 /// kEffortNames. With a ceiling: ceiling_* (of the

@@ -20,6 +20,7 @@ using Row = std::vector<TableCell>;
 
 constexpr const char* kCutRow = "ours, cut";
 constexpr const char* kPlaceRow = "ours below";
+constexpr const char* kAccurateKey = "accurate_coverage_0.05";
 constexpr const char* kCutNote = "ours, cut: after as many views as the paper's row";
 
 /// The columns, with one for each size beside the paper's that some of the runs have, and without
@@ -34,6 +35,11 @@ std::vector<TableColumn> columns_of(std::span<const MissionRow> missions,
                                       {"Entropy reduction", "entropy_reduction", estimate},
                                       {"Distance (m)", "distance_m", estimate, 1},
                                       {"Time (min)", "time_min", estimate, 1}};
+  if (std::ranges::any_of(missions, [](const MissionRow& mission) {
+        return mission.find("noisy").value_or(0.0) > 0.0;
+      })) {
+    columns.push_back({"Accurate 0.05 m", kAccurateKey, estimate, 1, true});
+  }
   std::vector<std::string> sizes;
   for (const double size_m : kCoverageSizes_m) sizes.push_back(size_name(size_m));
   std::map<double, std::string> more;
@@ -205,6 +211,11 @@ std::vector<std::string> notes_of(const TextTable& table, const PaperTable& pape
   std::vector<std::string> notes = {
       fmt::format("coverage: of voxels of that size, ours of those {}",
                   reference_words(groups.empty() ? 0 : area_samples_of(*groups[0].missions[0])))};
+  if (std::ranges::count(table.columns, kAccurateKey, &TableColumn::key) > 0) {
+    notes.emplace_back(
+        "accurate: of the same, those with a point within 0.01 m of the surface, so that noise "
+        "fills none");
+  }
   if (has_row(kCutRow)) notes.emplace_back(kCutNote);
   notes.push_back(fmt::format(
       "ours: entropy reduction in nat; distance in straight lines between views, profile apart{}",

@@ -19,6 +19,7 @@ std::vector<RunMetric> metrics_of(std::span<const MissionRow> missions) {
       {std::string(kCoverageMetric), "within_coverage_0.05", 100.0},
       {"coverage at 0.10 m (%)", "within_coverage_0.10", 100.0},
       {"coverage at 0.50 m (%)", "within_coverage_0.50", 100.0},
+      {"accurate coverage at 0.05 m (%)", "within_accurate_coverage_0.05", 100.0},
       {"share of ceiling at 0.05 m (%)", "within_share_of_ceiling", 100.0},
       {"mean coverage over views (%)", "mean_coverage_views", 100.0},
       {"mean coverage over metres (%)", "mean_coverage_metres", 100.0},

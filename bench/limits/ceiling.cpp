@@ -27,7 +27,7 @@ Ceiling compute(const Scenario& scenario, const World& world, const RayScene& sc
   Ceiling ceiling{.area_samples = reference.area_samples, .positions = legal.size()};
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     const VoxelSet seen_of_size = coarser(seen.voxels, kCoverageFactors[size]);
-    const VoxelSet kept = voxels_of(seen.kept_world_m, kCoverageSizes_m[size]);
+    const VoxelSet kept = covered_voxels(seen.kept_world_m, size);
     VoxelSet kept_and_seen;  // the neighbour that gets a leaf need not be seen
     std::set_intersection(kept.begin(), kept.end(), seen_of_size.begin(), seen_of_size.end(),
                           std::back_inserter(kept_and_seen));

@@ -11,7 +11,7 @@ std::vector<std::uint32_t> indices_of(const VoxelSet& reference,
                                       std::span<const Vec3f> points_world_m) {
   std::vector<std::uint32_t> indices;
   auto from = reference.begin();
-  for (const std::uint64_t code : voxels_of(points_world_m, kCoverageSizes_m[0])) {
+  for (const std::uint64_t code : covered_voxels(points_world_m, 0)) {
     from = std::lower_bound(from, reference.end(), code);
     if (from == reference.end()) break;
     if (*from == code) indices.push_back(static_cast<std::uint32_t>(from - reference.begin()));

@@ -19,13 +19,13 @@ std::vector<CameraModel> exact_cameras(const Scenario& scenario);
 void take_view(const RayScene& scene, std::span<const CameraModel> cameras, const ViewPose& view,
                double floor_z_m, int threads, std::vector<FrameRays>& rays);
 
-/// Ascending: which voxels of `reference`, by index, a cloud of this view alone would hold points
-/// in after the leaf filter.
+/// Ascending: which voxels of `reference`, by index, a cloud of this view alone would cover
+/// after the leaf filter.
 std::vector<std::uint32_t> finds_alone(const VoxelSet& reference, std::span<const FrameRays> view,
                                        double leaf_m);
 
 /// The mission's own cloud (SurfaceCloud, with its leaf filter), and which voxels of `reference` it
-/// holds points in.
+/// covers.
 class CloudOfViews {
  public:
   /// Keeps a reference to the voxels.
@@ -34,13 +34,13 @@ class CloudOfViews {
   void add(std::span<const FrameRays> view);
 
   std::span<const Vec3f> points_world_m() const { return cloud_.points_world_m(); }
-  /// How many voxels of the reference hold points.
+  /// How many voxels of the reference it covers.
   std::size_t found() const { return found_; }
 
  private:
   const VoxelSet& reference_;
   SurfaceCloud cloud_;
-  std::vector<std::uint8_t> is_found_;  // 1 for each voxel of the reference with a point
+  std::vector<std::uint8_t> is_found_;  // 1 for each voxel of the reference that it covers
   std::size_t found_ = 0;
 };
 

@@ -44,6 +44,10 @@ struct Sample {
   std::uint64_t block = 0;
 };
 
+bool has(const VoxelSet& set, std::uint64_t code) {
+  return std::binary_search(set.begin(), set.end(), code);
+}
+
 /// Whether a leaf lies in a voxel of the finest size.
 bool is_inside(const LeafKey& leaf, std::uint64_t voxel, double leaf_m) {
   constexpr double kRounding_m = 1e-6;
@@ -98,9 +102,10 @@ void share_leaves(const LeafParts& parts_m2, double leaf_m, std::span<Sample> sa
 }
 
 /// Of one slab, by blocks of the coarsest voxels, in them by voxels, in these one of each piece
-/// before the next of any: it may be one small face that is seen.
+/// before the next of any: it may be one small face that is seen. Behind its own samples a voxel of
+/// the reference has those beside it that cover it.
 std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std::size_t index,
-                               double floor_z_m, double leaf_m) {
+                               double floor_z_m, double leaf_m, const SurfaceReference& reference) {
   const LeafLattice lattice(leaf_m);
   std::vector<Sample> samples;
   LeafParts parts_m2;
@@ -110,8 +115,13 @@ std::vector<Sample> samples_of(const TriangleMesh& mesh, const Slabs& slabs, std
       for (std::size_t k = 0; k < count; ++k) {
         const Vec3f p_m = point_on(piece, k);
         const LeafKey leaf = lattice.key_of(p_m);
-        samples.push_back({p_m, piece.voxel, leaf, is_inside(leaf, piece.voxel, leaf_m), p_m,
-                           static_cast<std::uint32_t>(k)});
+        for (const std::uint64_t voxel : covered_by(p_m, 0)) {
+          const bool is_own = voxel == piece.voxel;
+          if (!is_own && !has(reference.counted[0], voxel) && !has(reference.raw[0], voxel))
+            continue;
+          samples.push_back({p_m, voxel, leaf, is_inside(leaf, voxel, leaf_m), p_m,
+                             static_cast<std::uint32_t>(is_own ? k : k + kPointsAsked)});
+        }
       }
       for_each_part(piece, leaf_m, [&](const std::array<std::int64_t, 3>& cell, double area_m2) {
         const auto at = [&](std::size_t a) { return static_cast<std::int32_t>(cell[a]); };
@@ -229,10 +239,6 @@ class SlabSearch {
     kept_m.push_back(voxel.kept_m[kind][point]);
   }
 
-  static bool has(const VoxelSet& set, std::uint64_t code) {
-    return std::binary_search(set.begin(), set.end(), code);
-  }
-
   void search_closely(bool is_outside, SightItem& item) const {
     const std::size_t points = item.points_world_m.size();
     const std::size_t by_cameras =
@@ -273,7 +279,8 @@ SeenSurface find_seen_surface(const Scenario& scenario, const World& world, cons
   std::mutex progress;
   std::size_t done = 0;
   parallel_for(threads, parts.size(), [&](std::size_t slab) {
-    parts[slab] = search.search(samples_of(world.structure, slabs, slab, floor_z_m, leaf_m));
+    parts[slab] =
+        search.search(samples_of(world.structure, slabs, slab, floor_z_m, leaf_m, reference));
     const std::scoped_lock lock(progress);
     ++done;
     if (on_progress) on_progress(static_cast<double>(done) / static_cast<double>(parts.size()));
@@ -284,7 +291,8 @@ SeenSurface find_seen_surface(const Scenario& scenario, const World& world, cons
     all.kept_world_m.insert(all.kept_world_m.end(), part.kept_world_m.begin(),
                             part.kept_world_m.end());
   }
-  std::sort(all.voxels.begin(), all.voxels.end());
+  std::sort(all.voxels.begin(), all.voxels.end());  // those beside a slab are in two
+  all.voxels.erase(std::unique(all.voxels.begin(), all.voxels.end()), all.voxels.end());
   return all;
 }
 

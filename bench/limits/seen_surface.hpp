@@ -11,15 +11,16 @@
 namespace gnbv {
 
 struct SeenSurface {
-  /// The finest voxels of which some sample is seen: by one of the cameras at some yaw from a legal
-  /// viewpoint (sight_search.hpp), or by a LIDAR on the profile's way (lidar_sight.hpp), with
+  /// The finest voxels of which some sample is seen, one that lies in the voxel or, for those of
+  /// the reference, one that covers it (covered_by()): by one of the cameras at some yaw from a
+  /// legal viewpoint (sight_search.hpp), or by a LIDAR on the profile's way (lidar_sight.hpp), with
   /// nothing of the structure in between. A lower bound that is near: where the lattice of
   /// positions shows nothing, places between them are looked for.
   VoxelSet voxels;
-  /// One point for each of these voxels, where the cloud's leaf filter may put it: in the voxel if
-  /// some sample that is seen is in a leaf that lies in the voxel, or in one of which the voxel has
-  /// a quarter of the surface; else in the leaf's neighbouring voxel. So a size that leaves divide
-  /// loses nothing.
+  /// One point for each of these voxels, where the cloud's leaf filter may put it: so that it
+  /// covers the voxel if some sample that is seen is in a leaf that lies in the voxel, or in one of
+  /// which the voxel has a quarter of the surface; else in the leaf's neighbouring voxel. So a size
+  /// that leaves divide loses nothing.
   std::vector<Vec3f> kept_world_m;
 };
 

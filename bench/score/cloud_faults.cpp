@@ -107,9 +107,8 @@ std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3
                                    double smallest_voxel_m) {
   if (cloud_world_m.empty()) throw BadInput(fmt::format("{}: has no points", name));
   need_finite(name, cloud_world_m);
-  // a mission's cloud is of floats: one on the floor must not fall below it by rounding
-  const auto is_below = [floor_m = static_cast<float>(floor_z_m)](const Vec3f& p_m) {
-    return p_m.z() < floor_m;
+  const auto is_below = [&](const Vec3f& p_m) {
+    return static_cast<double>(p_m.z()) < floor_z_m - kCoverReach_m;
   };
   std::vector<Vec3f> points_m;
   std::remove_copy_if(cloud_world_m.begin(), cloud_world_m.end(), std::back_inserter(points_m),

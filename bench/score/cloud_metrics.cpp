@@ -17,24 +17,24 @@ namespace {
 constexpr std::size_t kChunk = 8192;
 
 /// Of all distances, which are asked for in any order and summed up in theirs.
-template <typename Distance>
-DistanceShares shares_of(std::span<const Vec3f> points_m, int threads, const Distance& distance_m) {
+template <typename Item, typename Distance>
+DistanceShares shares_of(std::span<const Item> items, int threads, const Distance& distance_m) {
   struct Tally {
     std::array<std::size_t, 3> below{};
     double sum_m = 0.0;
   };
-  std::vector<Tally> tallies((points_m.size() + kChunk - 1) / kChunk);
-  parallel_for_chunks(threads, points_m.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  std::vector<Tally> tallies((items.size() + kChunk - 1) / kChunk);
+  parallel_for_chunks(threads, items.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     Tally& tally = tallies[begin / kChunk];
     for (std::size_t i = begin; i < end; ++i) {
-      const double m = std::min(distance_m(points_m[i]), kFarthest_m);
+      const double m = std::min(distance_m(items[i]), kFarthest_m);
       for (std::size_t k = 0; k < 3; ++k) tally.below[k] += m < kScoreDistances_m[k] ? 1 : 0;
       tally.sum_m += m;
     }
   });
   DistanceShares shares;
-  if (points_m.empty()) return shares;
-  const auto count = static_cast<double>(points_m.size());
+  if (items.empty()) return shares;
+  const auto count = static_cast<double>(items.size());
   Tally all;
   for (const Tally& tally : tallies) {
     for (std::size_t k = 0; k < 3; ++k) all.below[k] += tally.below[k];
@@ -45,13 +45,27 @@ DistanceShares shares_of(std::span<const Vec3f> points_m, int threads, const Dis
   return shares;
 }
 
+DistanceShares shares_of(std::span<const double> distances_m, int threads) {
+  return shares_of(distances_m, threads, [](double m) { return m; });
+}
+
 }  // namespace
+
+std::vector<double> distances_to_structure_m(const RayScene& scene,
+                                             std::span<const Vec3f> points_world_m, int threads) {
+  std::vector<double> distances_m(points_world_m.size());
+  parallel_for_chunks(threads, distances_m.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 p_m = points_world_m[i].cast<double>();
+      distances_m[i] = std::min(scene.distance_to_structure_m(p_m, kFarthest_m), kFarthest_m);
+    }
+  });
+  return distances_m;
+}
 
 DistanceShares shares_to_structure(const RayScene& scene, std::span<const Vec3f> points_world_m,
                                    int threads) {
-  return shares_of(points_world_m, threads, [&](const Vec3f& p_m) {
-    return scene.distance_to_structure_m(p_m.cast<double>(), kFarthest_m);
-  });
+  return shares_of(distances_to_structure_m(scene, points_world_m, threads), threads);
 }
 
 CloudDistances cloud_distances(const DistanceShares& precision, const DistanceShares& recall) {
@@ -67,8 +81,8 @@ CloudDistances cloud_distances(const DistanceShares& precision, const DistanceSh
   return out;
 }
 
-CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
-                               std::span<const Vec3f> judged_world_m,
+CloudDistances cloud_distances(std::span<const double> judged_m,
+                               std::span<const Vec3f> cloud_world_m,
                                std::span<const Vec3f> samples_world_m, int threads) {
   const PointTree tree(cloud_world_m);
   const auto nearest_m = [&](const Vec3f& p_m) {
@@ -77,7 +91,7 @@ CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> clo
     if (found.empty()) return kFarthest_m;
     return (cloud_world_m[found[0].point] - p_m).cast<double>().norm();
   };
-  return cloud_distances(shares_to_structure(scene, judged_world_m, threads),
+  return cloud_distances(shares_of(judged_m, threads),
                          shares_of(samples_world_m, threads, nearest_m));
 }
 

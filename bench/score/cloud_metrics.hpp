@@ -50,20 +50,22 @@ struct DistanceShares {
   double mean_m = kFarthest_m;
 };
 
-/// Of the points' exact distances to the structure. Deterministic at any number of threads.
+/// The points' exact distances to the structure, at most kFarthest_m (n).
+std::vector<double> distances_to_structure_m(const RayScene& scene,
+                                             std::span<const Vec3f> points_world_m, int threads);
+/// Of them. Deterministic at any number of threads.
 DistanceShares shares_to_structure(const RayScene& scene, std::span<const Vec3f> points_world_m,
                                    int threads);
 
 /// From those of the cloud's points to the surface, and of the surface's samples to the cloud.
 CloudDistances cloud_distances(const DistanceShares& precision, const DistanceShares& recall);
 
-/// Exact distances of every point of the cloud to the structure, and of every sample of the surface
-/// (SurfaceReference::samples_world_m) to its nearest point of the cloud. An empty cloud, like an
-/// empty surface, is kFarthest_m away and scores 0. Only `judged_world_m` of the cloud are asked
-/// for their distance to the structure; the samples look for the nearest of all. Deterministic at
-/// any number of threads.
-CloudDistances cloud_distances(const RayScene& scene, std::span<const Vec3f> cloud_world_m,
-                               std::span<const Vec3f> judged_world_m,
+/// From the distances of the judged points of the cloud to the structure, and of every sample of
+/// the surface (SurfaceReference::samples_world_m) to its nearest point of all the cloud. An empty
+/// cloud, like an empty surface, is kFarthest_m away and scores 0. Deterministic at any number of
+/// threads.
+CloudDistances cloud_distances(std::span<const double> judged_m,
+                               std::span<const Vec3f> cloud_world_m,
                                std::span<const Vec3f> samples_world_m, int threads);
 
 /// Zero for an empty cloud. Voxels are those of voxel_code().

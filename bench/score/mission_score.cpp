@@ -10,6 +10,7 @@ namespace {
 /// A cloud without the points that belong to what stands around the structure.
 struct OwnCloud {
   std::vector<Vec3f> points_world_m = {};
+  std::vector<double> distances_m = {};  // to the structure
   std::vector<std::size_t> until = {0};  // of the first i points of the whole so many are kept
 };
 
@@ -20,13 +21,16 @@ OwnCloud own_cloud(const RayScene& scene, std::span<const Vec3f> points_world_m,
     if (is_kept[i] != 0) own.points_world_m.push_back(points_world_m[i]);
     own.until.push_back(own.points_world_m.size());
   }
+  own.distances_m = distances_to_structure_m(scene, own.points_world_m, threads);
   return own;
 }
 
-std::vector<Vec3f> points_in(const Box3& region_m, std::span<const Vec3f> points_world_m) {
-  std::vector<Vec3f> inside;
-  for (const Vec3f& p_m : points_world_m) {
-    if (region_m.contains(p_m.cast<double>())) inside.push_back(p_m);
+OwnCloud part_in(const Box3& region_m, const OwnCloud& own) {
+  OwnCloud inside;
+  for (std::size_t i = 0; i < own.points_world_m.size(); ++i) {
+    if (!region_m.contains(own.points_world_m[i].cast<double>())) continue;
+    inside.points_world_m.push_back(own.points_world_m[i]);
+    inside.distances_m.push_back(own.distances_m[i]);
   }
   return inside;
 }
@@ -39,28 +43,23 @@ std::vector<std::size_t> prefixes_of(const ScoredCloud& cloud, const OwnCloud& o
   return prefixes;
 }
 
-}  // namespace
-
-std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
-                                            const RayScene& scene, const ReferenceConfig& reference,
-                                            const ScoredCloud& cloud, int threads) {
+std::vector<SizedCoverage> score_more(const MoreSizes& more, const OwnCloud& own,
+                                      std::span<const std::size_t> prefixes, int threads) {
   std::vector<SizedCoverage> all;
-  if (std::all_of(sizes_m.begin(), sizes_m.end(),
-                  [](double m) { return papers_size(m).has_value(); }))
-    return all;
-  const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
-  const std::vector<std::size_t> prefixes = prefixes_of(cloud, own);
-  for (const double size_m : sizes_m) {
+  for (const double size_m : more.sizes_m) {
     if (papers_size(size_m)) continue;
-    SizedShares shares =
-        sized_shares(world, size_m, reference, own.points_world_m, prefixes, threads);
+    SizedShares shares = sized_shares(more.world, size_m, more.reference, own.points_world_m,
+                                      prefixes, threads, own.distances_m);
     SizedCoverage at{.size_m = size_m,
                      .profile = shares.counted.front(),
                      .final = shares.counted.back(),
                      .profile_raw = shares.raw.front(),
-                     .final_raw = shares.raw.back()};
+                     .final_raw = shares.raw.back(),
+                     .accurate = shares.accurate.back()};
     shares.counted.pop_back();
+    shares.accurate.pop_back();
     at.curve = std::move(shares.counted);
+    at.accurate_curve = std::move(shares.accurate);
     all.push_back(std::move(at));
   }
   std::sort(all.begin(), all.end(),
@@ -68,31 +67,38 @@ std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, con
   return all;
 }
 
+}  // namespace
+
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
-                         const ScoredCloud& cloud, double density_voxel_m, int threads) {
+                         const ScoredCloud& cloud, double density_voxel_m, int threads,
+                         const std::optional<MoreSizes>& more) {
   const OwnCloud own = own_cloud(scene, cloud.points_world_m, threads);
   const std::vector<std::size_t> prefixes = prefixes_of(cloud, own);
   const std::vector<CoverageShares> shares =
-      coverage_of_prefixes(reference, own.points_world_m, prefixes, threads);
+      coverage_of_prefixes(reference, own.points_world_m, prefixes, threads, own.distances_m);
 
   MissionScore score{.profile = shares.front().counted,
                      .final = shares.back().counted,
+                     .accurate = shares.back().accurate,
                      .profile_raw = shares.front().raw,
                      .final_raw = shares.back().raw,
                      .area_samples = reference.area_samples,
                      .before = cloud.before};
+  if (more) score.more = score_more(*more, own, prefixes, threads);
   score.curve.coverage.push_back(shares.front().counted);
+  score.curve.accurate.push_back(shares.front().accurate);
   score.curve.metres.push_back(0.0);
   score.curve.seconds.push_back(0.0);
   for (std::size_t i = 0; i < cloud.views.size(); ++i) {
     score.curve.coverage.push_back(shares[i + 1].counted);
+    score.curve.accurate.push_back(shares[i + 1].accurate);
     score.curve.metres.push_back(cloud.views[i].straight_m);
     score.curve.seconds.push_back(cloud.views[i].time_s - cloud.before.profile_end_s);
   }
-  const std::vector<Vec3f> judged = points_in(cloud.region_m, own.points_world_m);
+  const OwnCloud judged = part_in(cloud.region_m, own);
   score.distances =
-      cloud_distances(scene, own.points_world_m, judged, reference.samples_world_m, threads);
-  score.density = cloud_density(judged, density_voxel_m);
+      cloud_distances(judged.distances_m, own.points_world_m, reference.samples_world_m, threads);
+  score.density = cloud_density(judged.points_world_m, density_voxel_m);
   return score;
 }
 

@@ -34,6 +34,7 @@ struct ScoredCloud {
 struct MissionScore {
   std::array<double, 3> profile{};  // of what coverage counts
   std::array<double, 3> final{};
+  std::array<double, 3> accurate{};     // of the same, final (kAccurateShare)
   std::array<double, 3> profile_raw{};  // raw reference
   std::array<double, 3> final_raw{};
   std::size_t area_samples = 0;          // of the reference
@@ -43,21 +44,26 @@ struct MissionScore {
   CoverageCurve curve = {};
   BeforeViews before = {};
   Budgets budgets = {};  // of the scenario
+  bool is_noisy = false;  // as RunFigures has it, for those who know
   // ceiling of the coverage at 0.05 m (leaf_counted of bench/limits/ceiling.hpp), for those who
   // know
   std::optional<double> ceiling = {};
 };
 
-/// At the sizes that are not the paper's, ascending (sized_coverage.hpp).
-std::vector<SizedCoverage> score_more_sizes(std::span<const double> sizes_m, const World& world,
-                                            const RayScene& scene, const ReferenceConfig& reference,
-                                            const ScoredCloud& cloud, int threads);
+/// Sizes of which those that are not the paper's are scored, too (sized_coverage.hpp), and what it
+/// takes.
+struct MoreSizes {
+  std::span<const double> sizes_m;
+  const World& world;
+  ReferenceConfig reference;
+};
 
 /// Points that belong to what stands around the structure (points_of_structure()) count nowhere.
 /// Distances to the structure and density are those of points in the region; coverage and recall
 /// ask all points for voxels and samples in it.
 /// Deterministic at any number of threads. `density_voxel_m` is planner.map.resolution_m.
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
-                         const ScoredCloud& cloud, double density_voxel_m, int threads);
+                         const ScoredCloud& cloud, double density_voxel_m, int threads,
+                         const std::optional<MoreSizes>& more = {});
 
 }  // namespace gnbv

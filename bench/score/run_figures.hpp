@@ -20,6 +20,7 @@ struct CoverageCurve {
   std::vector<std::array<double, 3>> coverage;  // of what it counts, by kCoverageSizes_m
   std::vector<double> metres;
   std::vector<double> seconds;
+  std::vector<std::array<double, 3>> accurate = {};  // coverage; none of runs of older versions
 
   std::size_t views() const { return coverage.empty() ? 0 : coverage.size() - 1; }
 };
@@ -90,9 +91,11 @@ struct RunFigures {
   BeforeViews before;
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
-  std::size_t area_samples = 0;                // of the reference: what coverage counts
-  std::array<double, 3> coverage_final{};      // of that
-  std::array<double, 3> coverage_profile{};    // the same, after the profile
+  std::size_t area_samples = 0;                            // of the reference: what coverage counts
+  std::array<double, 3> coverage_final{};                  // of that
+  std::array<double, 3> coverage_profile{};                // the same, after the profile
+  std::optional<std::array<double, 3>> coverage_accurate;  // (kAccurateShare); not of older runs
+  bool is_noisy = false;  // depth noise or a pose estimate: accurate coverage is what tells
   std::array<double, 3> coverage_final_raw{};  // of all surface
   std::array<double, 3> coverage_profile_raw{};
   std::vector<SizedCoverage> more = {};   // at sizes beside the paper's, ascending

@@ -49,7 +49,8 @@ void need_room_for(std::span<const double> sizes_m, const TriangleMesh& structur
 
 SizedShares sized_shares(const World& world, double size_m, const ReferenceConfig& config,
                          std::span<const Vec3f> cloud_world_m,
-                         std::span<const std::size_t> prefixes, int threads) {
+                         std::span<const std::size_t> prefixes, int threads,
+                         std::span<const double> distances_m) {
   const double factor = kCoverageSizes_m[0] / size_m;
   World small = world;
   for (TriangleMesh* mesh : {&small.structure, &small.obstacles, &small.terrain}) {
@@ -62,10 +63,14 @@ SizedShares sized_shares(const World& world, double size_m, const ReferenceConfi
   scaled_config.region_m = Box3(factor * config.region_m.min(), factor * config.region_m.max());
   const SurfaceReference reference =
       cached_surface_reference(small, RayScene(small), scaled_config, threads);
+  const double reach_m = std::min(factor * kCoverReach_m, 0.1 * kCoverageSizes_m[0]);
+  std::vector<double> scaled_m(distances_m.begin(), distances_m.end());
+  for (double& distance_m : scaled_m) distance_m *= factor;
   SizedShares out;
-  for (const CoverageShares& shares :
-       coverage_of_prefixes(reference, scaled(cloud_world_m, factor), prefixes, threads)) {
+  for (const CoverageShares& shares : coverage_of_prefixes(reference, scaled(cloud_world_m, factor),
+                                                           prefixes, threads, scaled_m, reach_m)) {
     out.raw.push_back(shares.raw[0]);
+    out.accurate.push_back(shares.accurate[0]);
     out.counted.push_back(shares.counted[0]);
   }
   return out;

@@ -232,8 +232,7 @@ std::string reference_words(std::size_t area_samples) {
 
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,
                                             std::span<const Vec3f> points_world_m) {
-  const std::array<VoxelSet, 3> cloud =
-      at_all_sizes(voxels_of(points_world_m, kCoverageSizes_m[0]));
+  const std::array<VoxelSet, 3> cloud = at_all_sizes(covered_voxels(points_world_m, 0));
   std::array<double, 3> shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = coverage(reference[i], cloud[i]);
   return shares;

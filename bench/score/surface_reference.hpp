@@ -78,7 +78,7 @@ std::string reference_name(std::size_t area_samples);
 /// For people, behind "voxels": "with visible surface of a tenth of their face".
 std::string reference_words(std::size_t area_samples);
 
-/// {"0.05", "0.10", "0.50"} of the run directory.
+/// Of what the points cover (covered_by()): {"0.05", "0.10", "0.50"} of the run directory.
 std::array<double, 3> coverage_at_all_sizes(const std::array<VoxelSet, 3>& reference,
                                             std::span<const Vec3f> points_world_m);
 

@@ -27,6 +27,11 @@ std::optional<std::uint64_t> find_code(const Vec3f& p_world_m, double per_m) {
   return code_of(index);
 }
 
+std::int64_t floor_div(std::int64_t i, std::int64_t factor) {
+  const std::int64_t towards_zero = i / factor;
+  return towards_zero * factor > i ? towards_zero - 1 : towards_zero;
+}
+
 void sort_unique(VoxelSet& codes) {
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
@@ -52,10 +57,7 @@ std::array<std::int64_t, 3> index_of(std::uint64_t code) {
 
 std::uint64_t coarser_code(std::uint64_t code, int factor) {
   std::array<std::int64_t, 3> index = index_of(code);
-  for (std::int64_t& i : index) {
-    const std::int64_t towards_zero = i / factor;
-    i = towards_zero * factor > i ? towards_zero - 1 : towards_zero;
-  }
+  for (std::int64_t& i : index) i = floor_div(i, factor);
   return code_of(index);
 }
 
@@ -73,6 +75,41 @@ Vec3 voxel_centre_m(std::uint64_t code, double size_m) {
     centre_m[static_cast<Eigen::Index>(axis)] = (static_cast<double>(index[axis]) + 0.5) * size_m;
   }
   return centre_m;
+}
+
+CoveredVoxels covered_by(const Vec3f& p_world_m, std::size_t size, double reach_m) {
+  constexpr double kPerMetre = 1.0 / kCoverageSizes_m[0];
+  CoveredVoxels covered{.count = 1};
+  for (const float x : p_world_m) {
+    const double x_m = static_cast<double>(x);
+    GNBV_CHECK(std::abs(std::floor(x_m * kPerMetre)) < static_cast<double>(kBias),
+               "no voxel at ({}, {}, {}) m", p_world_m.x(), p_world_m.y(), p_world_m.z());
+    const auto bits_at = [&](double at_m) {
+      const auto finest = static_cast<std::int64_t>(std::floor(at_m * kPerMetre));
+      return static_cast<std::uint64_t>(
+          floor_div(std::clamp(finest, 1 - kBias, kBias - 1), kCoverageFactors[size]) + kBias);
+    };
+    const std::uint64_t low = bits_at(x_m - reach_m);
+    const std::uint64_t high = bits_at(x_m + reach_m);
+    for (std::size_t i = covered.count; i-- > 0;) {
+      const std::uint64_t before = covered.codes[i] << kAxisBits;
+      covered.codes[i] = before | low;
+      if (high != low) covered.codes[covered.count++] = before | high;
+    }
+  }
+  return covered;
+}
+
+VoxelSet covered_voxels(std::span<const Vec3f> points_world_m, std::size_t size) {
+  VoxelSet codes;
+  codes.reserve(points_world_m.size());
+  for (const Vec3f& p_m : points_world_m) {
+    for (const std::uint64_t code : covered_by(p_m, size)) {
+      if (codes.empty() || codes.back() != code) codes.push_back(code);
+    }
+  }
+  sort_unique(codes);
+  return codes;
 }
 
 VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m) {

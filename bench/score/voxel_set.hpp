@@ -34,8 +34,29 @@ std::uint64_t coarser_code(std::uint64_t code, int factor);
 /// Centre of a voxel.
 Vec3 voxel_centre_m(std::uint64_t code, double size_m);
 
-/// The voxels of a cloud. Throws BadInput naming the first point that is not finite or farther than
-/// 2^20 voxels from the origin.
+/// Of coverage, at every size: a point covers the voxel that it lies in and those that it lies
+/// within this of, along each axis. What lies on a voxel's face, as walls at round coordinates do,
+/// so does not belong to one side or the other by the last bit.
+constexpr double kCoverReach_m = 0.001;
+
+/// The voxels that a point covers, one to eight.
+struct CoveredVoxels {
+  std::array<std::uint64_t, 8> codes{};
+  std::size_t count = 0;
+
+  const std::uint64_t* begin() const { return codes.data(); }
+  const std::uint64_t* end() const { return codes.data() + count; }
+};
+
+/// Of a size of kCoverageSizes_m. Sizes nest: the coarse voxels covered are those that hold the
+/// fine ones covered. Requires a reach below half of the finest size. Throws as voxel_code().
+CoveredVoxels covered_by(const Vec3f& p_world_m, std::size_t size, double reach_m = kCoverReach_m);
+
+/// Those that any of the points covers.
+VoxelSet covered_voxels(std::span<const Vec3f> points_world_m, std::size_t size);
+
+/// The voxels that hold the points of a cloud. Throws BadInput naming the first point that is not
+/// finite or farther than 2^20 voxels from the origin.
 VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m);
 
 /// The voxels `factor` times as large that hold a voxel of `fine`. factor >= 1.

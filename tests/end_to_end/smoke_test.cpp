@@ -55,6 +55,20 @@ TEST(SmokeMission, CoversMostOfTheStructure) {
   EXPECT_GT(score.final[2], 0.9);
 }
 
+TEST(SmokeMission, WhatExactSensorsCoverIsAccurate) {
+  // of leaves that are smaller than a voxel: the centroid of one that holds an edge lies off it
+  const Flown f(smoke({"planner.cloud.leaf_m=0.02"}));
+  const SurfaceReference reference =
+      make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
+  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.result),
+                                         f.scenario.planner.map.resolution_m, 2);
+  EXPECT_GT(score.final[0], 0.9);
+  for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
+    EXPECT_NEAR(score.accurate[size], score.final[size], 0.001) << size;
+    EXPECT_EQ(score.curve.accurate.back()[size], score.accurate[size]);
+  }
+}
+
 TEST(SmokeMission, EveryPointOfTheCloudLiesOnTheStructure) {
   // a leaf's centroid lies within the leaf, off a curved or folded surface by less than its
   // diagonal

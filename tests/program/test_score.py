@@ -262,7 +262,8 @@ def test_sizes_of_the_scenario_are_those_of_the_score_and_change_no_mission(run,
     curve = (tmp_path / 'own/coverage.csv').read_text()
     assert curve == (finer / 'coverage.csv').read_text()
     assert curve.startswith('view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50,'
-                            'coverage_0.20\n')
+                            'coverage_0.20,accurate_0.05,accurate_0.10,accurate_0.50,'
+                            'accurate_0.20\n')
     own = summary(tmp_path / 'own')
     assert own['coverage'] == summary(finer)['coverage'] and hash_of(flown) == own['result_sha256']
     at = own['coverage']['final']

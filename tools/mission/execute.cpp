@@ -244,9 +244,9 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     ScoredCloud cloud = scored_cloud(result);
     cloud.region_m = scenario.score.region_m;
     MissionScore score =
-        score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads);
-    score.more = score_more_sizes(scenario.score.sizes_m, world, scene, reference_config(scenario),
-                                  cloud, threads);
+        score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
+                    MoreSizes{scenario.score.sizes_m, world, reference_config(scenario)});
+    score.is_noisy = is_noisy(scenario);
     score.budgets = budgets_of(scenario.score);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);

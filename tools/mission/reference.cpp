@@ -1,5 +1,6 @@
 #include "tools/mission/reference.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,7 +17,7 @@ namespace {
 class Meter {
  public:
   Meter(const SurfaceReference& reference, const RayScene& scene)
-      : meter_(reference.counted[0], kCoverageSizes_m[0]), scene_(scene) {}
+      : meter_(reference.counted[0], 0), scene_(scene) {}
 
   double share_of(std::span<const Vec3f> cloud_world_m) {
     GNBV_CHECK(cloud_world_m.size() >= looked_at_, "a cloud shrank from {} to {} points",
@@ -59,6 +60,13 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
 
 Budgets budgets_of(const ScoreConfig& score) {
   return {static_cast<double>(score.budget_views), score.budget_m, score.budget_s};
+}
+
+bool is_noisy(const Scenario& scenario) {
+  return scenario.vehicle.estimate.model != EstimateModel::none ||
+         std::ranges::any_of(scenario.cameras, [](const CameraConfig& camera) {
+           return camera.noise.model != DepthNoise::none;
+         });
 }
 
 std::optional<double> run_ceiling(const Scenario& scenario, const World& world,

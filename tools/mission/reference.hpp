@@ -20,6 +20,9 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
 /// What the scenario judges mean coverage and efforts over.
 Budgets budgets_of(const ScoreConfig& score);
 
+/// Whether a camera's depths are noisy, or the vehicle's pose is estimated.
+bool is_noisy(const Scenario& scenario);
+
 /// How a ceiling is come by: read when an earlier command left it in the cache, or found anew,
 /// which may take longer than the mission.
 enum class CeilingFrom { cache, search };

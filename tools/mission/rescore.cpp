@@ -30,15 +30,15 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
   const SurfaceReference reference = reference_of(scenario, world, scene, threads);
   const double reference_s = watch.elapsed_s();
   Scored scored{
-      .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads),
+      .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
+                           MoreSizes{scenario.score.sizes_m, world, reference_config(scenario)}),
       .sizes_m = scenario.score.sizes_m,
       .structure = structure_name(scenario.structure),
       .points = cloud.points_world_m.size(),
       .floor_z_m = scenario.planner.floor_z_m,
       .reference_s = reference_s};
-  scored.score.more =
-      score_more_sizes(scored.sizes_m, world, scene, reference_config(scenario), cloud, threads);
   scored.score.budgets = budgets_of(scenario.score);
+  scored.score.is_noisy = is_noisy(scenario);
   scored.score_s = watch.elapsed_s() - reference_s;
   return scored;
 }

@@ -56,12 +56,15 @@ std::string score_text(const Scored& scored, const std::string& name, bool is_ru
   const bool is_outside = score.area_samples == 0;
   coverage_row(is_outside ? "seen from outside" : "area samples", score.final,
                &SizedCoverage::final);
+  coverage_row("of it accurate", score.accurate, &SizedCoverage::accurate);
   coverage_row("all surface, also inner", score.final_raw, &SizedCoverage::final_raw);
   if (is_run) {
     coverage_row(is_outside ? "profile, from outside" : "profile, area samples", score.profile,
                  &SizedCoverage::profile);
   }
-  text += "a voxel counts with such surface of a tenth of its face\n";
+  text +=
+      "a voxel counts with such surface of a tenth of its face; accurate: with a point within a "
+      "fifth of its size of the surface\n";
   if (!is_outside) {
     text += fmt::format("area samples: voxels {}\n", reference_words(score.area_samples));
   }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "bench/score/cloud_metrics.hpp"
+#include "bench/score/sized_coverage.hpp"
 #include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -107,16 +108,18 @@ TrueVoxels true_voxels(const SurfaceReference& reference, std::size_t max_voxels
 
 std::vector<std::uint16_t> views_until_found(const TrueVoxels& voxels, const RunCloud& cloud) {
   GNBV_CHECK(cloud.view_points.size() < kNeverFound, "{} views", cloud.view_points.size());
+  const std::size_t size = papers_size(voxels.size_m).value();
   std::vector<std::uint16_t> until(voxels.codes.size(), kNeverFound);
   std::size_t point = 0;
   std::uint16_t state = 0;
   for (const std::size_t end : ends_of(cloud)) {
     for (; point < end; ++point) {
-      const std::uint64_t code = voxel_code(cloud.points_world_m[point], voxels.size_m);
-      const auto voxel = std::lower_bound(voxels.codes.begin(), voxels.codes.end(), code);
-      if (voxel == voxels.codes.end() || *voxel != code) continue;
-      std::uint16_t& found = until[static_cast<std::size_t>(voxel - voxels.codes.begin())];
-      found = std::min(found, state);
+      for (const std::uint64_t code : covered_by(cloud.points_world_m[point], size)) {
+        const auto voxel = std::lower_bound(voxels.codes.begin(), voxels.codes.end(), code);
+        if (voxel == voxels.codes.end() || *voxel != code) continue;
+        std::uint16_t& found = until[static_cast<std::size_t>(voxel - voxels.codes.begin())];
+        found = std::min(found, state);
+      }
     }
     ++state;
   }

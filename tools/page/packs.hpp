@@ -28,7 +28,7 @@ struct RunBudget {
   std::size_t points = 0;
 };
 
-/// The voxels that coverage counts (SurfaceReference::counted), of one size.
+/// The voxels that coverage counts (SurfaceReference::counted), of one of kCoverageSizes_m.
 struct TrueVoxels {
   double size_m = 0.0;
   VoxelSet codes = {};
@@ -109,7 +109,7 @@ TrueVoxels true_voxels(const SurfaceReference& reference, std::size_t max_voxels
 
 constexpr std::uint16_t kNeverFound = 0xffff;
 
-/// Of each voxel the number of views after which a point lay in it first, 0 after the profile
+/// Of each voxel the number of views after which a point first covered it, 0 after the profile
 /// alone, or kNeverFound. What came after the last view counts to it. Requires fewer than
 /// kNeverFound views.
 std::vector<std::uint16_t> views_until_found(const TrueVoxels& voxels, const RunCloud& cloud);

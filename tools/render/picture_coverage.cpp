@@ -26,7 +26,7 @@ struct Judged {
 
 Judged judge(RunSource& run, const PictureOptions& options) {
   const SurfaceReference& reference = run.reference();
-  const VoxelSet seen = voxels_of(points_by(run, options), kCoverageSizes_m.front());
+  const VoxelSet seen = covered_voxels(points_by(run, options), 0);
   Judged judged;
   const VoxelSet& surface = reference.counted.front();
   for (std::size_t i = 0; i < surface.size(); ++i) {

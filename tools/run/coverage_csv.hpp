@@ -10,14 +10,15 @@
 
 namespace gnbv {
 
-/// A row an entry of the curve, a column a size: the paper's three, then the others. Numbers are
-/// written so that they read back exactly.
+/// A row an entry of the curve, a column a size: the paper's three, then the others; the same of
+/// accurate coverage, where the curve has it. Numbers are written so that they read back exactly.
 std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more = {});
 
 struct CoverageFile {
   CoverageCurve curve;
   std::vector<std::string> more_names;           // as size_name() has them
   std::vector<std::vector<double>> more_curves;  // of each
+  std::vector<std::vector<double>> more_accurate;
 };
 
 /// Throws BadInput naming file and line of whatever is damaged.

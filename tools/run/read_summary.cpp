@@ -36,6 +36,9 @@ class SummaryReader {
   }
 
   bool has(const std::string& pointer) const { return json_.contains(Json::json_pointer(pointer)); }
+  bool holds_true(const std::string& pointer) const {
+    return has(pointer) && json_.at(Json::json_pointer(pointer)) == true;
+  }
 
   /// A number, a count or a text; nothing, where that may be, for null.
   template <typename Value>
@@ -136,15 +139,19 @@ RunFigures read_run_figures(const fs::path& run) {
   std::optional<std::size_t> area_samples;
   summary.read_if_there(area_samples, "/coverage/area_samples");
   figures.area_samples = area_samples.value_or(0);
+  figures.is_noisy = summary.holds_true("/coverage/is_noisy");
+  if (summary.has("/coverage/accurate")) figures.coverage_accurate.emplace();
   CoverageFile coverage = read_coverage_csv(run / kCoverageFile);
   for (std::size_t i = 0; i < coverage.more_names.size(); ++i) {
     figures.more.push_back({.size_m = std::strtod(coverage.more_names[i].c_str(), nullptr),
-                            .curve = std::move(coverage.more_curves[i])});
+                            .curve = std::move(coverage.more_curves[i]),
+                            .accurate_curve = std::move(coverage.more_accurate[i])});
   }
-  visit_score(ScoreParts<true>{figures.coverage_profile, figures.coverage_final,
-                               figures.coverage_profile_raw, figures.coverage_final_raw,
-                               figures.more, figures.distances, figures.density},
-              [&](const std::string& pointer, double& value) { summary.read(value, pointer); });
+  visit_score(
+      ScoreParts<true>{figures.coverage_profile, figures.coverage_final,
+                       figures.coverage_profile_raw, figures.coverage_final_raw,
+                       figures.coverage_accurate, figures.more, figures.distances, figures.density},
+      [&](const std::string& pointer, double& value) { summary.read(value, pointer); });
   figures.curve = std::move(coverage.curve);
   if (figures.curve.coverage.size() != static_cast<std::size_t>(figures.iterations) + 1) {
     throw BadInput(fmt::format("{}: {} rows for the profile and {} views",

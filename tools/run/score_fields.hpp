@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -19,7 +20,8 @@ struct ScoreParts {
   template <typename T>
   using Ref = std::conditional_t<kIsRead, T&, const T&>;
   Ref<std::array<double, 3>> profile, final, profile_raw, final_raw;
-  Ref<std::vector<SizedCoverage>> more;  // whose sizes are known
+  Ref<std::optional<std::array<double, 3>>> accurate;  // if there
+  Ref<std::vector<SizedCoverage>> more;                // whose sizes are known
   Ref<CloudDistances> distances;
   Ref<CloudDensity> density;
 };
@@ -37,6 +39,7 @@ void visit_score(const ScoreParts<kIsRead>& score, Field&& field) {
   shares("/coverage/final", score.final, &SizedCoverage::final);
   shares("/coverage/profile_raw_reference", score.profile_raw, &SizedCoverage::profile_raw);
   shares("/coverage/final_raw_reference", score.final_raw, &SizedCoverage::final_raw);
+  if (score.accurate) shares("/coverage/accurate", *score.accurate, &SizedCoverage::accurate);
   for (std::size_t i = 0; i < score.distances.at.size(); ++i) {
     const std::string entry = fmt::format("/precision_recall/{}", i);
     field(entry + "/distance_m", score.distances.at[i].distance_m);

@@ -50,9 +50,10 @@ Json score_part(const MissionScore& score) {
   Json json;
   json["coverage"]["reference"] = reference_name(score.area_samples);
   if (score.area_samples > 0) json["coverage"]["area_samples"] = score.area_samples;
+  json["coverage"]["is_noisy"] = score.is_noisy;
   visit_score(
-      ScoreParts<false>{score.profile, score.final, score.profile_raw, score.final_raw, score.more,
-                        score.distances, score.density},
+      ScoreParts<false>{score.profile, score.final, score.profile_raw, score.final_raw,
+                        score.accurate, score.more, score.distances, score.density},
       [&](const std::string& pointer, double value) { json[Json::json_pointer(pointer)] = value; });
   json["budget"] = by_effort(score.budgets, [](Effort, double budget) { return budget; });
   json["mean_coverage"] = by_effort(score.budgets, [&](Effort effort, double budget) {
@@ -126,6 +127,7 @@ std::string score_json(const MissionScore& score, bool is_run) {
     for (const char* key : {"budget", "mean_coverage", "ceiling_at_0.05", "effort_to_reach"}) {
       json.erase(key);
     }
+    json["coverage"].erase("is_noisy");
     json["coverage"].erase("profile");
     json["coverage"].erase("profile_raw_reference");
   }

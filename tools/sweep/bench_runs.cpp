@@ -54,7 +54,7 @@ class RowNotes {
 };
 
 /// Whether a seed keys more than the start and the planner's own draws.
-bool is_noisy(const Scenario& scenario) {
+bool seeds_key_noise(const Scenario& scenario) {
   const auto is_noisy_camera = [](const auto& camera) {
     return camera.noise.model != DepthNoise::none || camera.drop_probability > 0.0;
   };
@@ -100,7 +100,7 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
     }
     row.program = program_of_rows();
     const Scenario flown = load_scenario((folder / kScenarioFile).string(), {});
-    row.figures["noisy"] = is_noisy(flown) ? 1.0 : 0.0;
+    row.figures["seeds_key_noise"] = seeds_key_noise(flown) ? 1.0 : 0.0;
     const PaperTable* const paper = find_paper_table(flown.name);
     const bool is_papers = paper != nullptr && is_papers_structure(*paper, row.structure);
     row.figures["papers_structure"] = is_papers ? 1.0 : 0.0;

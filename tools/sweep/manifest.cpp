@@ -74,6 +74,10 @@ std::vector<std::pair<std::string, Json>> columns_of(const RunFigures& f) {
     }
   };
   add_sizes("coverage", f.coverage_final);
+  for (std::size_t size = 0; size < 3; ++size) {
+    columns.emplace_back(fmt::format("accurate_{:.2f}", kCoverageSizes_m[size]),
+                         f.coverage_accurate ? Json((*f.coverage_accurate)[size]) : Json(""));
+  }
   add_sizes("coverage_raw", f.coverage_final_raw);
   add_sizes("coverage_profile", f.coverage_profile);
   columns.emplace_back("density_points_per_voxel", f.density_points_per_voxel);

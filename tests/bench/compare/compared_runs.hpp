@@ -40,7 +40,7 @@ inline Comparison compare(std::vector<ComparedRun> runs, const std::string& base
     row.scenario = run.scenario;
     row.method = run.method;
     row.seed = run.seed;
-    row.figures["noisy"] = run.is_noisy ? 1.0 : 0.0;
+    row.figures["seeds_key_noise"] = run.is_noisy ? 1.0 : 0.0;
     const auto ceiling = ceilings.find(run.scenario);
     if (ceiling != ceilings.end()) add_ceiling(run.figures, ceiling->second, row);
   }

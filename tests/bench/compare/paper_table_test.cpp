@@ -358,5 +358,38 @@ TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
   EXPECT_EQ(filled, 3);
 }
 
+TEST(PaperTable, OfNoisyRunsLeadsWithAccurateCoverage) {
+  RunFigures noisy = example();
+  noisy.is_noisy = true;
+  noisy.coverage_accurate = {0.8, 0.9, 0.95};
+  noisy.curve = {.coverage = {{0.167, 0.666, 0.896}}, .metres = {0.0}, .seconds = {0.0}};
+  noisy.iterations = 640;  // the paper's has 635
+  for (int view = 1; view <= 640; ++view) {
+    noisy.curve.coverage.push_back(noisy.coverage_final);
+    noisy.curve.metres.push_back(view);
+    noisy.curve.seconds.push_back(view);
+  }
+  noisy.curve.accurate.assign(641, {0.7, 0.8, 0.9});
+  const std::vector<RunFigures> runs = {noisy};
+  const TextTable table = comparison_table(*find_paper_table("aircraft"), rows_of(runs));
+  const auto key_at = [&](std::ptrdiff_t at) {
+    return std::ranges::find(table.columns, "accurate_coverage_0.05", &TableColumn::key)[at].key;
+  };
+  EXPECT_EQ(key_at(1), "coverage_0.05");
+  const auto row_of = [&](const std::string& kind) {
+    const auto row = std::ranges::find(table.rows, kind, [](const auto& r) { return r[1].text; });
+    return static_cast<std::size_t>(row - table.rows.begin());
+  };
+  EXPECT_EQ(cell_of(table, row_of("ours"), "accurate_coverage_0.05").text, "80.0%");
+  EXPECT_EQ(cell_of(table, row_of("ours, cut"), "accurate_coverage_0.05").text, "70.0%");
+  EXPECT_EQ(cell_of(table, row_of("paper"), "accurate_coverage_0.05").text, "-");
+  for (const bool is_noisy : {true, false}) {
+    noisy.is_noisy = is_noisy;
+    EXPECT_EQ(
+        one_row_summary(mission_row(noisy), false).find("Accurate 0.05 m") != std::string::npos,
+        is_noisy);
+  }
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -36,7 +36,7 @@ std::vector<Vec3f> points_above_sheet(double spacing_m, double height_m, double 
 
 CloudDistances distances(const RayScene& scene, std::span<const Vec3f> cloud,
                          std::span<const Vec3f> samples) {
-  return cloud_distances(scene, cloud, cloud, samples, 2);
+  return cloud_distances(distances_to_structure_m(scene, cloud, 2), cloud, samples, 2);
 }
 
 TEST(CloudDistances, OfAParallelSheetAreItsHeightUpToAMetre) {
@@ -245,11 +245,10 @@ TEST(CloudFaults, EmptyNotFiniteAndTooFarArePointedAt) {
   EXPECT_NO_THROW(need_voxels("a.ply", {}));
 }
 
-TEST(ScorablePoints, AreAllThatAreNotBelowTheFloorInTheirOrder) {
-  const auto floor_m = static_cast<float>(kFloor_z_m);
-  const std::vector<Vec3f> kept = {Vec3f(30, 0, 9), Vec3f(0, 0, floor_m), Vec3f(-30, 0, 2)};
+TEST(ScorablePoints, AreAllThatDoNotLieAMillimetreBelowTheFloorInTheirOrder) {
+  const std::vector<Vec3f> kept = {Vec3f(30, 0, 9), Vec3f(0, 0, 0.29901F), Vec3f(-30, 0, 2)};
   std::vector<Vec3f> cloud = kept;
-  cloud.insert(cloud.begin() + 1, Vec3f(0, 0, std::nextafter(floor_m, 0.0F)));
+  cloud.insert(cloud.begin() + 1, Vec3f(0, 0, 0.29899F));
   cloud.emplace_back(0.0F, 60000.0F, -60000.0F);  // lost under the floor, whatever else it is
   EXPECT_EQ(scorable_points("a.ply", cloud, kFloor_z_m, scene(), kStructure), kept);
   EXPECT_TRUE(complains({Vec3f(0, 0, 0), Vec3f(1, 0, 0)}, "all 2 points lie below z = 0.3 m"));

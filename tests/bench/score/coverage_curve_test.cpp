@@ -53,7 +53,7 @@ TEST(CoverageMeter, EqualsTheSetsOfTheCloudAsItGrows) {
   const SurfaceReference reference = box_in_a_box();
   const std::vector<Vec3f> cloud = random_points(20000);
   for (const std::size_t size : {0U, 2U}) {
-    CoverageMeter meter(reference.counted[size], kCoverageSizes_m[size]);
+    CoverageMeter meter(reference.counted[size], size);
     for (const std::size_t count : {0U, 10U, 10U, 5000U, 20000U}) {
       const std::span<const Vec3f> grown = std::span(cloud).first(count);
       EXPECT_EQ(meter.share_of(grown), coverage_at_all_sizes(reference.counted, grown)[size]);

@@ -39,6 +39,8 @@ void expect_equal(const MissionScore& a, const MissionScore& b) {
   EXPECT_EQ(a.final, b.final);
   EXPECT_EQ(a.final_raw, b.final_raw);
   EXPECT_EQ(a.profile, b.profile);
+  EXPECT_EQ(a.accurate, b.accurate);
+  EXPECT_EQ(a.curve.accurate, b.curve.accurate);
   EXPECT_EQ(a.curve.coverage, b.curve.coverage);
   EXPECT_EQ(a.density.mean_points, b.density.mean_points);
   EXPECT_EQ(a.distances.chamfer_m, b.distances.chamfer_m);
@@ -89,6 +91,28 @@ TEST(SurroundingsScore, IsThatOfTheCloudWithoutTheirPoints) {
                          .views = {{.cloud_points = after_first}, {.cloud_points = mixed.size()}}};
   expect_equal(score_cloud(reference, scene, both, 0.2, 2),
                score_cloud(reference, scene, alone, 0.2, 1));
+}
+
+TEST(AccurateCoverage, DoesNotRiseByAStrayPointInAVoxelThatNobodySaw) {
+  const World world = cube_and_fence();
+  const RayScene scene(world);
+  const SurfaceReference reference = reference_in(world, kAll);
+  const std::vector<Vec3f> on_it = points_on(world.structure, 0.1);
+  std::vector<Vec3f> half;  // the lower half of the cube
+  std::ranges::copy_if(on_it, std::back_inserter(half), [](const Vec3f& p) { return p.z() < 1; });
+  std::vector<Vec3f> strayed = half;
+  strayed.push_back({1.02F, 0.02F, 1.52F});  // 20 mm before a wall: 10 mm count at 0.05 m
+  const auto score_of = [&](const std::vector<Vec3f>& points) {
+    return score_cloud(reference, scene, {.points_world_m = points}, 0.2, 2);
+  };
+  const MissionScore without = score_of(half);
+  const MissionScore with = score_of(strayed);
+  EXPECT_EQ(without.accurate, without.final);
+  EXPECT_GT(with.final[0], without.final[0]);
+  EXPECT_EQ(with.accurate[0], without.accurate[0]);
+  EXPECT_EQ(with.accurate[2], with.final[2]);  // in a voxel of 0.5 m it is near enough
+  strayed.back().x() = 1.005F;
+  EXPECT_EQ(score_of(strayed).accurate, with.final);
 }
 
 TEST(SurroundingsScore, AHallAroundTheStructureLeavesTheReference) {

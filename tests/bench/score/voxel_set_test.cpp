@@ -145,18 +145,21 @@ TEST(SizedShares, OfThePapersSizesAreThePapers) {
   for (int i = 0; i < 20000; ++i) {
     cloud.emplace_back(coordinate(random), coordinate(random), coordinate(random));
   }
+  std::vector<double> distances_m;  // of some of them
+  for (const Vec3f& p_m : cloud) distances_m.push_back(0.05 * static_cast<double>(p_m.x()));
   const std::vector<std::size_t> prefixes = {100, cloud.size()};
   for (const std::size_t area_samples : {0U, 5000U}) {
     const ReferenceConfig config{.floor_z_m = 0.3, .area_samples = area_samples};
     const SurfaceReference reference = make_surface_reference(world, RayScene(world), config, 2);
-    const auto papers = coverage_of_prefixes(reference, cloud, prefixes, 2);
+    const auto papers = coverage_of_prefixes(reference, cloud, prefixes, 2, distances_m);
     EXPECT_GT(papers[1].counted[2], 0.5);
     for (std::size_t size = 0; size < 3; ++size) {
       const SizedShares ours =
-          sized_shares(world, kCoverageSizes_m[size], config, cloud, prefixes, 2);
+          sized_shares(world, kCoverageSizes_m[size], config, cloud, prefixes, 2, distances_m);
       for (std::size_t i = 0; i < prefixes.size(); ++i) {
         EXPECT_NEAR(ours.raw[i], papers[i].raw[size], 1e-12) << size;
         EXPECT_NEAR(ours.counted[i], papers[i].counted[size], 1e-12) << size;
+        EXPECT_NEAR(ours.accurate[i], papers[i].accurate[size], 1e-12) << size;
       }
     }
   }
@@ -183,7 +186,8 @@ TEST(ScoreMoreSizes, AscendWithoutThePapersAndEndTheirCurvesWithTheLastView) {
   scored.views = {{.cloud_points = 1}, {.cloud_points = 2}};  // and a point in flight
   const std::vector<double> sizes_m = {0.2, 0.05, 0.04};
   const World world = cube();
-  const auto more = score_more_sizes(sizes_m, world, RayScene(world), {}, scored, 2);
+  const auto more =
+      score_cloud({}, RayScene(world), scored, 0.2, 2, MoreSizes{sizes_m, world, {}}).more;
   ASSERT_EQ(more.size(), 2U);
   EXPECT_EQ(more[0].size_m, 0.04);
   EXPECT_EQ(more[1].size_m, 0.2);

@@ -203,8 +203,8 @@ TEST(TrueSurface, FoundAfterEachViewIsTheCurveOfCoverage) {
   }
   EXPECT_GT(std::count(until.begin(), until.end(), kNeverFound), 0);
   // what came after the last view counts to it
-  const TrueVoxels two{.size_m = 1.0, .codes = {code_of({0, 0, 0}), code_of({1, 0, 0})}};
-  EXPECT_EQ(views_until_found(two, {.points_world_m = {{0.5F, 0, 0}, {1.5F, 0, 0}},
+  const TrueVoxels two{.size_m = 0.5, .codes = {code_of({0, 0, 0}), code_of({1, 0, 0})}};
+  EXPECT_EQ(views_until_found(two, {.points_world_m = {{0.25F, 0, 0}, {0.75F, 0, 0}},
                                     .profile_points = 1,
                                     .view_points = {1, 1}}),
             (std::vector<std::uint16_t>{0, 2}));

@@ -29,8 +29,8 @@ TEST(CoveragePicture, CoversTheShareThatTheScoreSays) {
   const Picture picture = kCoveragePicture.draw(run, {}, view);
   ASSERT_EQ(picture.panels.size(), 2U);
   const SurfaceItem& cubes = picture.panels[0].scene.surfaces.at(0);
-  // a colour for each corner: voxels of the reference by whether the cloud has a point in them
-  const VoxelSet seen = voxels_of(points, kCoverageSizes_m[0]);
+  // a colour for each corner: voxels of the reference by whether the cloud covers them
+  const VoxelSet seen = covered_voxels(points, 0);
   const Rgb& missed = picture.legend.at(1).colours.front();
   std::set<std::uint64_t> shown_voxels, missed_voxels;
   for (std::size_t i = 0; i < cubes.mesh.faces.size(); i += 2) {
@@ -133,7 +133,7 @@ TEST(CoveragePicture, NotesCountWhatTheirPanelsShow) {
   const Picture picture = kCoveragePicture.draw(run, {}, view);
   const SurfaceReference& reference = run.reference();
   const double size_m = kCoverageSizes_m.front();
-  const VoxelSet seen = voxels_of(run.cloud().points_world_m, size_m);
+  const VoxelSet seen = covered_voxels(run.cloud().points_world_m, 0);
   std::size_t missed = 0;
   std::array<std::size_t, 2> shown{};
   std::size_t in_neither = 0;

@@ -90,6 +90,22 @@ TEST(RoundTrip, CoverageCsv) {
   EXPECT_EQ(wide.more_names, (std::vector<std::string>{"0.20", "0.025"}));
   EXPECT_EQ(wide.more_curves[0], more[0].curve);
   EXPECT_EQ(wide.more_curves[1], more[1].curve);
+  // with accurate coverage, which older versions did not write
+  EXPECT_TRUE(wide.curve.accurate.empty());
+  CoverageCurve both = curve;
+  both.accurate = {{0.0, 0.25, 1.0 / 3.0}, {1.0 / 9.0, 0.0, 5e-324}};
+  std::vector<SizedCoverage> more_of_both = more;
+  more_of_both[0].accurate_curve = {0.1, 1.0 / 11.0};
+  more_of_both[1].accurate_curve = {0.0, 0.3};
+  write_file_atomically(csv, coverage_csv(both, more_of_both));
+  const CoverageFile whole = read_coverage_csv(csv);
+  EXPECT_EQ(whole.curve.coverage, curve.coverage);
+  EXPECT_EQ(whole.curve.accurate, both.accurate);
+  EXPECT_EQ(whole.more_names, wide.more_names);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(whole.more_curves[i], more[i].curve);
+    EXPECT_EQ(whole.more_accurate[i], more_of_both[i].accurate_curve);
+  }
   write_file_atomically(csv, coverage_csv(curve));
   EXPECT_TRUE(read_coverage_csv(csv).more_names.empty());
   const CoverageCurve read = read_coverage_csv(csv).curve;
@@ -171,6 +187,8 @@ struct MadeMission {
     result.entropy_after_profile_nat = result.belief.grid.total_entropy_nat() + 0.5;
     score.profile = {0.1, 0.2, 0.3};
     score.final = {0.4, 0.5, 2.0 / 3.0};
+    score.accurate = {0.35, 0.36, 4.0 / 11.0};
+    score.is_noisy = true;
     score.area_samples = 1234;
     score.profile_raw = {0.01, 0.02, 0.03};
     score.final_raw = {0.04, 0.05, 0.06};
@@ -181,7 +199,8 @@ struct MadeMission {
     score.density = {.voxel_m = 0.2, .mean_points = 10.0 / 3.0, .variation = 0.3};
     score.curve = {.coverage = {{0.1, 0.2, 0.3}, {0.2, 0.3, 0.4}, {0.4, 0.5, 2.0 / 3.0}},
                    .metres = {0.0, 0.0, 1.0},
-                   .seconds = {0.0, 1.0, 2.0}};
+                   .seconds = {0.0, 1.0, 2.0},
+                   .accurate = {{0.1, 0.2, 0.3}, {0.1, 0.25, 0.3}, {0.35, 0.36, 4.0 / 11.0}}};
   }
   fs::path written_into(const TempFolder& temp) const {
     RunDirectory(temp.path() / "run", scenario, false).finish(scenario, result, score, 61.5);
@@ -223,6 +242,25 @@ TEST(RoundTrip, RunDirectory) {
   EXPECT_EQ(f.coverage_final_raw, made.score.final_raw);
   EXPECT_EQ(f.coverage_profile_raw, made.score.profile_raw);
   EXPECT_EQ(f.curve.coverage, made.score.curve.coverage);
+  EXPECT_EQ(f.coverage_accurate, made.score.accurate);
+  EXPECT_EQ(f.curve.accurate, made.score.curve.accurate);
+  EXPECT_TRUE(f.is_noisy);
+}
+
+TEST(RoundTrip, ARunWithoutAccurateCoverageStaysReadable) {
+  const TempFolder temp;
+  MadeMission made;
+  made.score.curve.accurate.clear();
+  const fs::path run = made.written_into(temp);
+  auto old = nlohmann::ordered_json::parse(read_file(run / kSummaryFile));
+  old["coverage"].erase("accurate");
+  old["coverage"].erase("is_noisy");
+  write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");
+  const RunFigures f = read_run_figures(run);
+  EXPECT_EQ(f.coverage_final, made.score.final);
+  EXPECT_FALSE(f.coverage_accurate.has_value());
+  EXPECT_TRUE(f.curve.accurate.empty());
+  EXPECT_FALSE(f.is_noisy);
 }
 
 TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {

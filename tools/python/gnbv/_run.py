@@ -61,7 +61,10 @@ class Run:
 
     @cached_property
     def coverage(self) -> Array:
-        """coverage.csv: after the profile (row 0) and after each view; shares from 0 to 1."""
+        """coverage.csv: after the profile (row 0) and after each view; shares from 0 to 1.
+
+        Runs that old versions scored lack the columns accurate_0.05 and so on.
+        """
         return _csv(self.folder / "coverage.csv")
 
     @cached_property
@@ -87,6 +90,12 @@ class Run:
     def final_coverage(self) -> float:
         """Share of the voxels of 0.05 m that the score counts which the cloud covers."""
         return float(self.summary["coverage"]["final"]["0.05"])
+
+    @property
+    def accurate_coverage(self) -> float | None:
+        """The same, of voxels with a point within 0.01 m of the surface; None of old versions."""
+        found = self.summary["coverage"].get("accurate")
+        return None if found is None else float(found["0.05"])
 
     @property
     def termination(self) -> str:
