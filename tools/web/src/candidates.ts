@@ -29,9 +29,8 @@ export class CandidateMarks extends ViewMark {
   private burst: Candidate[] = []; // its views, where it is one, in the order of their flight
   private chosen: Candidate | undefined; // as this view
 
-  /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
-      private readonly data: CandidateData, private readonly missed_m: number) { super(); }
+      private readonly data: CandidateData) { super(); }
 
   /** The decision that chose the last of the first `n` views, perhaps with views before it. */
   protected parts(n: number): three.Object3D[] {
@@ -106,10 +105,10 @@ export class CandidateMarks extends ViewMark {
           .map((k, axis) => 2 * (k + 0.5) / kRays[axis] - 1);
         const way = new three.Vector3(u * Math.tan(camera.fov_x / 2),
           v * Math.tan(camera.fov_y / 2), 1).transformDirection(T);
-        const length = densities?.firstHit(origin, way, camera.range_m, known) ?? camera.range_m;
+        const length = densities.firstHit(origin, way, camera.range_m, known);
         const isHit = length < camera.range_m;
         this.rayEnds.push(origin, origin.clone().addScaledVector(way,
-          isHit ? length : Math.min(length, this.missed_m)));
+          isHit ? length : Math.min(length, this.flight.sight_m)));
         colours.push(...isHit ? [...hit, ...hit] : [...miss, ...miss]);
       }
     }
@@ -120,7 +119,7 @@ export class CandidateMarks extends ViewMark {
   kinds(): { colour: string; text: string; means: string; count: number;
     isRejected?: boolean }[] {
     const rays = "Rays end at the first voxel that held points before; those that meet none are "
-      + `pale, and drawn to ${number(Math.min(this.missed_m, this.flight.range_m), 1)} m`;
+      + `pale, and drawn to ${number(this.flight.sight_m, 1)} m`;
     const counts = [...Map.groupBy(this.now, ({ kind }) => kind)].sort(([a], [b]) => b - a);
     return counts.map(([kind, { length: count }]) =>
       kind === kChosen ? { colour: cssOf("chosen"), text: "chosen view, and its rays",

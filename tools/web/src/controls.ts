@@ -84,7 +84,7 @@ export function makeLayerBar(scenes: RunScene[], stage: Stage, chosen: Chosen,
       chosen.layers[name] = on;
       stage.setLayers(chosen.layers);
       changed();
-    })),
+    }, name)),
     make("span", { class: "tools" },
       select("Colour of points and voxels", colourings(scenes), chosen.colour, (by) => {
         chosen.colour = by;

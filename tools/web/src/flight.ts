@@ -30,6 +30,7 @@ export class Flight {
   readonly workspace: Box3; // in which the vehicle may fly
   readonly size_m: number; // from corner to corner of it
   readonly range_m: number; // of the camera that sees farthest
+  readonly sight_m: number; // farther than this what it sees would fill the picture
   private readonly efforts: Record<Effort, number[]>; // after n views
   private readonly times: number[]; // of the mission, likewise
 
@@ -43,6 +44,7 @@ export class Flight {
     this.workspace = new Box3(new Vector3(...workspace_min), new Vector3(...workspace_max));
     this.size_m = this.workspace.min.distanceTo(this.workspace.max);
     this.range_m = Math.max(...cameras.map(({ range_m }) => range_m));
+    this.sight_m = Math.min(this.range_m, 0.25 * this.size_m);
   }
 
   /** After `n` views. */
@@ -115,9 +117,6 @@ export class Flight {
     const begin = this.data.views_begin_s ?? this.data.views.time[0] ?? Infinity;
     return this.samplesBy(begin);
   }
-
-  /** Where the vehicle is before the first view; null where no path was recorded. */
-  profileEnd(): Vector3 | null { return this.flownPose(this.times[0])?.p ?? null; }
 
   private flownPose(at: number): Pose | null {
     if (!this.data.path) return null;

@@ -3,7 +3,7 @@ import type { Sphere, Vector3 } from "three";
 import { Clock } from "./clock";
 import { cssOnPage, setLooks } from "./colours";
 import { firstChoice, listenToKeys, makeLayerBar, makeTransport } from "./controls";
-import { make, ofRun } from "./dom";
+import { fileName, make, ofRun } from "./dom";
 import { Flight } from "./flight";
 import { FrameStrip } from "./frame_strip";
 import { legendItems } from "./legend";
@@ -12,10 +12,9 @@ import { makeMissedList } from "./missed";
 import { readPage } from "./page";
 import * as panels from "./panels";
 import { hashOf, readState } from "./permalink";
-import { viewsThatSaw } from "./pick";
 import { Plots } from "./plots";
+import { viewsThatSaw } from "./pointing";
 import { RunScene } from "./run_scene";
-import { fileName } from "./save";
 import { Stage } from "./stage";
 
 /** The 3D view; null where the browser cannot draw it. */
@@ -46,8 +45,7 @@ function build() {
   const missed = make("div", { class: "missed-list" });
   const state = readState(location.hash);
   const chosen = firstChoice(scenes, state);
-  const asked = state.runs?.filter((run) => run in flights);
-  const shown = new Set(asked && (asked.length > 0 || state.runs!.length === 0) ? asked
+  const shown = new Set(state.runs?.every((run) => run in flights) ? state.runs
     : [...flights.keys()].slice(0, 4)); // more panes are too small
   const shownScenes = () => scenes.filter(({ flight }) => shown.has(flight.index));
   const shownFlights = () => shownScenes().map(({ flight }) => flight);
@@ -101,8 +99,8 @@ function build() {
       make("div", { class: isAlone ? "board" : "board several" },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, layerBar, stage?.element
-            ?? make("div", { class: "stage none" }, make("p", { class: "nothing" },
-              "3D needs WebGL, which this browser or its settings do not offer.")),
+            ?? make("p", { class: "nothing" },
+              "3D needs WebGL, which this browser or its settings do not offer."),
           stage && key, makeTransport(clock, words), words, why),
           strip.element),
         make("div", { class: "side" }, plots.element, missed)),
@@ -114,10 +112,8 @@ function build() {
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
   const showMissed = (scene: RunScene, { center, radius }: Sphere, back: Vector3) => {
-    if (!chosen.layers.missed) {
-      [...layerBar!.querySelectorAll("label")].find(({ textContent }) => textContent === "Missed")!
-        .click();
-    }
+    const box = layerBar!.querySelector<HTMLInputElement>("[name=missed]")!;
+    if (!box.checked) box.click();
     stage!.lookAt(scene, center, back, radius);
     stage!.element.scrollIntoView({ block: "nearest" });
   };

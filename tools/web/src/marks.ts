@@ -169,15 +169,15 @@ export class PlanMark extends ViewMark {
   }
 }
 
-/** What the cameras see, out to their range or to `most_m`, on the vehicle's pose. */
+/** What the cameras see, on the vehicle's pose. */
 export class SightMark extends ViewMark {
-  constructor(private readonly flight: Flight, private readonly most_m: number) { super(); }
+  constructor(private readonly flight: Flight) { super(); }
 
   protected parts(n: number): three.Object3D[] {
     const colour = colourOf("camera");
     return this.flight.camerasAt(Math.max(0, n - 1)).flatMap((camera) => {
       const T = new three.Matrix4().fromArray(camera.T_body_camera);
-      const depth = Math.min(camera.range_m, this.most_m);
+      const depth = Math.min(camera.range_m, this.flight.sight_m);
       const edges = pyramidEdges(camera, T, depth);
       const corners = pictureCorners(camera, T, depth);
       const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);

@@ -1,11 +1,11 @@
 // Where a run missed most of the true surface: cells of which it never found the half, gathered
 // into regions. A voxel missed here and there is nowhere to look at.
 import { Box3, MathUtils, Sphere, Vector3 } from "three";
-import { keyOf } from "./densities";
 import { make, measure, number } from "./dom";
 import type { Flight } from "./flight";
 import { ofLabel } from "./panels";
 import type { RunScene } from "./run_scene";
+import { keyOf } from "./surfaces";
 import { kNeverFound, type TrueSurface } from "./true_surface";
 
 const kCells = 50; // along the structure; those that touch are one region
@@ -54,7 +54,7 @@ export function makeMissedList(scenes: RunScene[], show: ShowRegion): HTMLElemen
   const lists = scenes.flatMap((scene) => scene.surface ? listOf(scene, scene.surface,
     ofLabel(scenes, scene.flight.data), show) ?? [] : []);
   return lists.length === 0 ? null : make("section", { class: "card again" },
-    make("h3", { class: "flush" }, "Where most was missed"),
+    make("h3", {}, "Where most was missed"),
     make("div", { class: "missed-runs" }, ...lists));
 }
 

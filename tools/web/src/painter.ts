@@ -32,14 +32,14 @@ uniform float uRelief; // in metres; 0: none
 uniform float uPxPerTan;
 uniform vec3 uSun; // seen from the camera
 varying vec2 vAt;
+vec2 size() { return vec2(textureSize(uDepth, 0)); }
 float logDepth(vec2 at) {
   float z = texture2D(uDepth, at).x;
   return log2(uNear * uFar / (uFar - z * (uFar - uNear)));
 }
 vec3 placeAt(vec2 at) {
-  vec2 size = vec2(textureSize(uDepth, 0));
   float away = exp2(logDepth(at));
-  return vec3((at - 0.5) * size / uPxPerTan * away, -away);
+  return vec3((at - 0.5) * size() / uPxPerTan * away, -away);
 }
 /** Of the two steps along a way the flatter one: the other may lead off an edge. */
 vec3 stepAlong(vec3 here, vec2 way) {
@@ -49,18 +49,17 @@ vec3 stepAlong(vec3 here, vec2 way) {
 }
 float light() {
   vec3 here = placeAt(vAt);
-  vec2 px = clamp(uRelief * uPxPerTan / -here.z, 2.0, 40.0) / vec2(textureSize(uDepth, 0));
+  vec2 px = clamp(uRelief * uPxPerTan / -here.z, 2.0, 40.0) / size();
   vec3 normal = normalize(cross(stepAlong(here, vec2(px.x, 0.0)), stepAlong(here, vec2(0.0, px.y))));
   return 0.62 + 0.46 * max(dot(normal, uSun), 0.0);
 }
 void main() {
   vec4 colour = texture2D(uColour, vAt);
   float here = logDepth(vAt);
-  vec2 reach = uReach / vec2(textureSize(uDepth, 0));
   float before = 0.0;
   for (int i = 0; i < uNeighbours; ++i) {
     float angle = 6.283185 * float(i) / float(uNeighbours);
-    before += max(0.0, here - logDepth(vAt + reach * vec2(cos(angle), sin(angle))));
+    before += max(0.0, here - logDepth(vAt + uReach / size() * vec2(cos(angle), sin(angle))));
   }
   float isSomething = step(texture2D(uDepth, vAt).x, 0.99999);
   colour.rgb *= mix(1.0, max(0.25, exp(-9.0 * before / float(uNeighbours))), isSomething);
@@ -75,12 +74,7 @@ export const kMarkLayer = 1;
 
 export const kSun = new three.Vector3(-0.5, -0.8, 1.4);
 
-export interface Pane {
-  x: number;
-  y: number; // from below
-  width: number;
-  height: number;
-}
+export interface Pane { left: number; top: number; width: number; height: number }
 
 export class Painter {
   private readonly renderer: three.WebGLRenderer;
@@ -90,8 +84,6 @@ export class Painter {
   private readonly shading = new three.ShaderMaterial({
     vertexShader: kFullVertex, fragmentShader: kFragment,
     depthFunc: three.AlwaysDepth, // brings the surfaces' depths along, for the marks
-    uniforms: Object.fromEntries(["uColour", "uDepth", "uReach", "uNear", "uFar", "uNeighbours",
-      "uRelief", "uPxPerTan", "uSun"].map((name) => [name, { value: null }])),
   });
   private readonly quad = new FullScreenQuad(this.shading);
 
@@ -110,7 +102,8 @@ export class Painter {
   }
 
   /** A scene into its pane; `share` of it is the truth where a surface is beside it. */
-  paint(scene: RunScene, shot: Shot, { x, y, width, height }: Pane, share: number) {
+  paint(scene: RunScene, shot: Shot, { left: x, top, width, height }: Pane, share: number) {
+    const y = this.renderer.getSize(new three.Vector2()).y - top - height; // from below
     this.renderer.setViewport(x, y, width, height);
     const line = Math.round(width * share);
     const sides: [Side, number, number][] = scene.isSwiped()
@@ -143,7 +136,7 @@ export class Painter {
       uNear: camera.near, uFar: camera.far, uNeighbours: isWhole ? 8 : 4,
       uRelief: scene.relief_m(), uPxPerTan: pxPerTan,
       uSun: kSun.clone().transformDirection(camera.matrixWorldInverse) };
-    for (const [name, value] of Object.entries(values)) this.shading.uniforms[name].value = value;
+    for (const [name, value] of Object.entries(values)) this.shading.uniforms[name] = { value };
     renderer.setRenderTarget(target);
     // here, since it is converted for the present target
     renderer.setClearColor(this.background.setHex(isDark() ? 0x14181e : 0xf4f6f9));

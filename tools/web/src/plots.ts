@@ -4,9 +4,8 @@
 import { kEfforts, type Clock } from "./clock";
 import { cssOnPage } from "./colours";
 import type { Plot, PlotChoice } from "./data";
-import { make, mark, number, select, significant } from "./dom";
+import { fileName, make, mark, number, saveFile, select, significant } from "./dom";
 import { lastAtMost, type Flight } from "./flight";
-import { fileName, saveFile } from "./save";
 
 /** Of figures.schema.json, with numbers as arrays in which NaN is what is not known. */
 interface Axis { label: string; low: number; high: number; ticks: { at: number; text: string }[] }
@@ -18,6 +17,7 @@ export interface Figure { notes: string[]; panels: Panel[] }
 
 const kLeft = 60;
 const kRight = 16;
+const kPaper_px = 450;
 const kFont_px = 11;
 const kLane = 9; // of a panel of intervals
 const kKeys = 4; // a row
@@ -121,8 +121,7 @@ class PlotView {
   }
 
   /** Anew where the page has become narrower or wider. */
-  fit() {
-    const { clientWidth: width } = this.place;
+  fit(width = this.place.clientWidth) {
     if (width === 0 || width === this.width) return;
     this.width = width;
     this.place.innerHTML = this.drawn({ width, height: 168 + heightOf(this.panels), left: kLeft });
@@ -192,6 +191,8 @@ export class Plots {
       if (clock.effort !== this.shownBy) this.rebuild(); else this.follow();
     });
     new ResizeObserver(() => this.fit()).observe(this.element);
+    addEventListener("beforeprint", () => this.fit(kPaper_px));
+    addEventListener("afterprint", () => this.fit());
   }
 
   isShown(series: string) { return !this.hidden.includes(series); }
@@ -243,8 +244,8 @@ export class Plots {
     for (const view of this.views) view.follow(this.clock.at, this.hovered ?? this.clock.at);
   }
 
-  private fit() {
-    for (const view of this.views) view.fit();
+  private fit(width?: number) {
+    for (const view of this.views) view.fit(width);
     this.follow();
   }
 }
