@@ -39,8 +39,8 @@ export class Structure {
 }
 
 /**
- * The surface that `gnbv surface` made of the run; empty until the binary glTF is read, and where it
- * is damaged.
+ * The surface that `gnbv surface` made of the run; empty until the binary glTF is read, and where
+ * it is damaged.
  */
 export function readRunSurface(glb: Uint8Array<ArrayBuffer>, loaded: () => void): three.Group {
   const surface = new three.Group();

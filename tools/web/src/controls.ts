@@ -53,7 +53,7 @@ const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height
 /** Of those that there is anything for; the others are asked for. */
 const kShownFirst = ["cloud", "structure", "path", "plan", "vehicle"];
 
-export interface Chosen {
+interface Chosen {
   layers: Layers;
   colour: Colouring;
 }

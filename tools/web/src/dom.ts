@@ -53,9 +53,6 @@ export function toggle(text: string, on: boolean, change: (on: boolean) => void,
 export const number = (value: number, decimals = 0) => value.toLocaleString("en-US",
   { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
 
-/** "28.1", as the tables have it. */
-export const minutes = (seconds: number) => number(seconds / 60, 1);
-
 /** "34.7 m", which no line breaks. */
 export const measure = (value: string, unit: string) => (unit === "" ? value
   : `${value}\u00a0${unit}`);

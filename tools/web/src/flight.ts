@@ -4,7 +4,7 @@ import type { Clock, Effort } from "./clock";
 import type { CameraData, RunData } from "./data";
 import { number } from "./dom";
 
-export interface Pose {
+interface Pose {
   p: Vector3; // metres, world
   q: Quaternion; // body in world
 }
@@ -117,6 +117,9 @@ export class Flight {
     const begin = this.data.views_begin_s ?? this.data.views.time[0] ?? Infinity;
     return this.samplesBy(begin);
   }
+
+  /** Where the vehicle is before the first view, x y z; empty where no path was recorded. */
+  profileEnd(): number[] { return this.flownPose(this.times[0])?.p.toArray() ?? []; }
 
   private flownPose(at: number): Pose | null {
     if (!this.data.path) return null;

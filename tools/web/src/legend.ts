@@ -1,6 +1,6 @@
 // What everything in the 3D view means, in words beside its colour.
-import { kBelievedKinds } from "./believed";
 import { cssOf, rampGradient, wordsOf, type RampName } from "./colours";
+import { kBelievedKinds } from "./decisions";
 import { colourBar, make, mark, measure, number, ofRun, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import { ofVoxels, type Colouring } from "./surfaces";

@@ -5,10 +5,8 @@ import { cssOnPage, setLooks } from "./colours";
 import { firstChoice, listenToKeys, makeLayerBar, makeTransport } from "./controls";
 import { fileName, make, ofRun } from "./dom";
 import { Flight } from "./flight";
-import { FrameStrip } from "./frame_strip";
 import { legendItems } from "./legend";
 import { followRun } from "./live";
-import { makeMissedList } from "./missed";
 import { readPage } from "./page";
 import * as panels from "./panels";
 import { hashOf, readState } from "./permalink";
@@ -16,16 +14,7 @@ import { Plots } from "./plots";
 import { viewsThatSaw } from "./pointing";
 import { RunScene } from "./run_scene";
 import { Stage } from "./stage";
-
-/** The 3D view; null where the browser cannot draw it. */
-function makeStage(...args: ConstructorParameters<typeof Stage>): Stage | null {
-  try {
-    return new Stage(...args);
-  } catch (error) {
-    console.warn(error);
-    return null;
-  }
-}
+import { makeMissedList } from "./true_surface";
 
 function build() {
   const page = readPage();
@@ -35,10 +24,10 @@ function build() {
   const clock = new Clock();
   const flights = page.runs.map((run, i) => new Flight(run, i, clock));
   const scenes = flights.map((flight) => new RunScene(flight, page.meshes[flight.data.mesh]));
-  const stage = makeStage(scenes, clock, fileName(page.title));
+  const stage = Stage.make(scenes, clock, fileName(page.title));
   const isAlone = flights.length === 1;
-  const plots = new Plots(page.plots, flights, clock);
-  const strip = new FrameStrip();
+  const plots = new Plots(page.plots, clock);
+  const strip = new panels.FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
   const why = make("div", { class: "why" });
@@ -83,7 +72,7 @@ function build() {
   const setShown = () => {
     stage?.setShown(shownScenes());
     changed();
-    plots.setFlights(shownFlights());
+    plots.build({ hidden: page.runs.filter((_, i) => !shown.has(i)).map(({ label }) => label) });
     clock.setFlights(shownFlights());
   };
   const layerBar = stage && makeLayerBar(scenes, stage, chosen, changed);
@@ -107,8 +96,8 @@ function build() {
       page.tables.length > 0 ? make("section", {}, make("h2", {},
         page.tables.some((table) => table.rows.some((row) => row.includes("paper")))
           ? "Beside the paper" : "In one table"),
-        ...page.tables.map(panels.makeTable)) : "",
-      panels.makeMissing(page.runs) ?? "",
+        ...page.tables.map(panels.makeTable)) : null,
+      panels.makeMissing(page.runs),
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
   const showMissed = (scene: RunScene, { center, radius }: Sphere, back: Vector3) => {

@@ -19,14 +19,15 @@ function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
 }
 
 /** Of places, x y z each, of one colour or r g b each. */
-export function geometryOf(places: Numbers, colours: Numbers | number): three.BufferGeometry {
+function geometryOf(places: Numbers, colours: Numbers | number): three.BufferGeometry {
   return new three.BufferGeometry()
     .setAttribute("position", new three.Float32BufferAttribute(places, 3))
     .setAttribute("color", new three.Float32BufferAttribute(coloursOf(places, colours), 3));
 }
 
-/** Lines of that width; three numbers an end, of places and, where they are not of one, of colours. */
-export function makeTube(places: Numbers, colours: Numbers | number, width_px: number, opacity = 1) {
+/** Lines of that width; three numbers an end. */
+export function makeTube(places: Numbers, colours: Numbers | number, width_px: number,
+    opacity = 1) {
   const geometry = new LineSegmentsGeometry().setPositions(Float32Array.from(places))
     .setColors(Float32Array.from(coloursOf(places, colours)));
   return new LineSegments2(geometry, new LineMaterial({ linewidth: width_px, vertexColors: true,

@@ -2,7 +2,7 @@
 // in their pictures, and how far they are from each other.
 import * as three from "three";
 import { make, number } from "./dom";
-import { figuresOf } from "./frame_strip";
+import { figuresOf } from "./panels";
 import type { RunScene } from "./run_scene";
 
 /** What a pointer can name. */
@@ -65,7 +65,8 @@ const kMostNamed = 8;
 export class Pointing {
   readonly element = make("div", { class: "picked", role: "status" });
   readonly button = make("button", { class: "small", "aria-pressed": "false",
-    title: "Then pick two things: their distance is told", click: () => this.measure() }, "Measure");
+    title: "Then pick two things: their distance is told",
+    click: () => this.measure() }, "Measure");
   private isMeasuring = false;
   private begin: three.Vector3 | null = null;
 

@@ -1,15 +1,13 @@
 // The scene of one run: what is there, and what of it shows at a moment of the replay.
 import * as three from "three";
-import { BelievedMarks } from "./believed";
 import { Structure, makeVehicle, readRunSurface } from "./bodies";
-import { CandidateMarks } from "./candidates";
 import { hairline } from "./colours";
 import type { MeshData, RunData } from "./data";
+import { BelievedMarks, CandidateMarks } from "./decisions";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
-import { kMarkLayer, kSun, type Shot } from "./painter";
+import { Splats, kMarkLayer, kSun, type Shot } from "./painter";
 import type { Thing } from "./pointing";
-import { Splats } from "./splats";
 import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
 
@@ -167,10 +165,12 @@ export class RunScene {
    */
   outline(): three.BufferAttribute {
     const { flight, layers } = this;
-    const end = 3 * flight.profileSamples();
-    const profile = flight.points?.subarray(layers.profile ? 0 : Math.max(0, end - 3), end) ?? [];
-    const parts: ArrayLike<number>[] = [this.shape(), profile,
+    const reach_m = 0.03 * flight.size_m; // of the vehicle, enlarged as it is from afar
+    const around = Array.from({ length: 8 }, (_, corner) => flight.profileEnd().map((x, axis) =>
+      x + (corner >> axis & 1 ? reach_m : -reach_m)));
+    const parts: ArrayLike<number>[] = [this.shape(), ...around,
       flight.data.views.pose.filter((_, i) => i % 4 < 3)];
+    if (layers.profile) parts.push(flight.points?.subarray(0, 3 * flight.profileSamples()) ?? []);
     const shown = [layers.candidates ? this.candidates?.now.map(({ at }) => at) : null,
       layers.plan ? this.plan?.places : null];
     for (const places of shown) for (const place of places ?? []) parts.push(place.toArray());
@@ -203,7 +203,8 @@ export class RunScene {
           ? `, found first by ${words(first - 1)}` : " that no view found"}` };
     }
     for (const { at, view } of this.model.shownPoints()) {
-      yield { at, ahead: 0, view: Math.max(view, 0), what: () => `A point that ${words(view)} brought` };
+      yield { at, ahead: 0, view: Math.max(view, 0),
+        what: () => `A point that ${words(view)} brought` };
     }
   }
 }

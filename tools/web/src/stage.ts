@@ -40,7 +40,16 @@ export class Stage {
   private isFramed = false;
   private isPrinted = false;
 
-  /** Throws where there is no WebGL. */
+  /** Null where the browser cannot draw it. */
+  static make(...args: ConstructorParameters<typeof Stage>): Stage | null {
+    try {
+      return new Stage(...args);
+    } catch (error) {
+      console.warn(error);
+      return null;
+    }
+  }
+
   constructor(private readonly scenes: RunScene[], clock: Clock, private readonly name: string) {
     this.shown = scenes;
     this.pointing = new Pointing((view) => clock.seek(view + 1));
@@ -260,7 +269,7 @@ export class Stage {
         { camera: this.cameraOf(scene), pxPerTan: perTan * pane.height, isWhole }, pane,
         this.swipe.share);
     });
-    if (isWhole) this.painter.wait();
+    this.painter.wait();
     this.detail.drawn(performance.now() - begin);
   }
 }

@@ -3,7 +3,7 @@ import * as three from "three";
 import { colourOf, isDark, rampHex } from "./colours";
 import type { RunData, VoxelData } from "./data";
 import { lastAtMost } from "./flight";
-import type { SplatSource } from "./splats";
+import type { SplatSource } from "./painter";
 
 /** Of a cell by its index along each axis, 16 bits each; exact in a double. */
 export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
@@ -13,7 +13,7 @@ export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 +
  * How many of the cloud's points each voxel holds at a state of the mission, with a ceiling that
  * leaves out the densest few of the last one.
  */
-export class Densities {
+class Densities {
   readonly count: Uint32Array; // at this state
   readonly most: number;
   private state = 0; // of how many the gains are in `count`
