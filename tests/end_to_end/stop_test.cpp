@@ -68,6 +68,28 @@ TEST(MaxFlightTime, EndsInFlightAtThatTick) {
   EXPECT_EQ(fly("planner.termination.max_flight_time_s=5").views.size(), 0U);  // in the profile
 }
 
+TEST(MaxIterations, InsideABurstEndThereOrAfterItsLastView) {
+  const auto flown = [](const std::string& where) {
+    return Flown(smoke({"planner.fvs.mode=burst", "planner.fvs.entropy_threshold_nat=1",
+                        "planner.termination.max_iterations=6",
+                        "planner.termination.within_plans=" + where}))
+        .result;
+  };
+  const MissionResult there = flown("true");
+  const MissionResult after = flown("false");
+  ASSERT_EQ(there.views.size(), 6U);
+  EXPECT_EQ(there.views.back().decision.plan_view, 2);
+  ASSERT_GT(after.views.size(), 6U);
+  for (std::size_t i = 0; i < there.views.size(); ++i) {
+    EXPECT_TRUE(is_same_view(after.views[i].decision.view, there.views[i].decision.view));
+  }
+  for (std::size_t i = 6; i < after.views.size(); ++i) {
+    EXPECT_EQ(after.views[i].decision.plan_view, static_cast<int>(i) - 3);
+  }
+  EXPECT_EQ(there.termination, Termination::max_iterations);
+  EXPECT_EQ(after.termination, Termination::max_iterations);
+}
+
 /// The mission with that setting, and its summary.
 std::pair<ExecutedMission, nlohmann::json> executed(const std::string& set) {
   const TempFolder temp;

@@ -221,6 +221,25 @@ TEST(Burst, IsFlownFromTheNearestClusterOnWithoutAnyDecisionWhateverTheMapBecome
   EXPECT_NEAR(whole.clusters[1].centroid_world_m.x(), -3.1, 0.1);  // 4.5 m, before 5.3 m
 }
 
+TEST(Burst, IsTheSameWhateverAUtilityThinksOfItsViews) {
+  std::vector<ViewPose> views;
+  for (const std::string_view name : utility_names()) {
+    for (const HitVoxel hit :
+         {HitVoxel::counted, HitVoxel::excluded}) {  // excluded: some are refused
+      const SmallPlanner small = burst_planner([&](PlannerConfig& c) {
+        c.fvs.clusters = 3;
+        c.utility.name = name;
+        c.utility.hit_voxel = hit;
+      });
+      const Plan plan = Flown(small).next(patches(small, kThreePatches));
+      if (views.empty()) views = views_of(plan);
+      expect_same(views_of(plan), views);
+      for (const std::size_t kept : plan.chosen) EXPECT_FALSE(plan.candidates[kept].rejected);
+    }
+  }
+  EXPECT_GT(views.size(), 3U);
+}
+
 TEST(Burst, NeverComesBackToAClusterWhateverCameOfIt) {
   for (const double radius_m : {2.5, 30.0}) {  // of 30 m, all views are out of the workspace
     const SmallPlanner small = burst_planner([&](PlannerConfig& c) { c.fvs.radius_m = radius_m; });

@@ -123,7 +123,9 @@ void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
         fmt::format("interrupted: {} cells are missing; the same command goes on", missing));
   }
   if (failed > 0) {
-    throw CommandFailed(fmt::format("{} cells failed; --retry-failed runs them again", failed));
+    const auto first = std::ranges::find(outcomes, CellStatus::failed, &CellOutcome::status);
+    throw CommandFailed(fmt::format(
+        "{} cells failed; --retry-failed runs them again; the first: {}", failed, first->failure));
   }
 }
 

@@ -160,7 +160,7 @@ try {
       return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
     };` });
   await page.go();
-  assert.match(await page.textOf(".stage"), /3D needs WebGL/);
+  assert.match(await page.textOf(".view"), /3D needs WebGL/);
   assert.ok(await page.visible(".plot-place svg") > 2);
   await page.seek(2);
   assert.equal(await page.is("gnbv.views(0)"), 2);

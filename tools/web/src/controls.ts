@@ -53,7 +53,7 @@ const kColourings: [Colouring, string][] = [["real", "Camera colours"], ["height
 /** Of those that there is anything for; the others are asked for. */
 const kShownFirst = ["cloud", "structure", "path", "plan", "vehicle"];
 
-export interface Chosen {
+interface Chosen {
   layers: Layers;
   colour: Colouring;
 }
@@ -84,7 +84,7 @@ export function makeLayerBar(scenes: RunScene[], stage: Stage, chosen: Chosen,
       chosen.layers[name] = on;
       stage.setLayers(chosen.layers);
       changed();
-    })),
+    }, name)),
     make("span", { class: "tools" },
       select("Colour of points and voxels", colourings(scenes), chosen.colour, (by) => {
         chosen.colour = by;

@@ -3,14 +3,13 @@
 // milliseconds: only the first whole picture tells.
 
 const kFluent_ms = 50; // a whole picture that takes no longer is drawn at every step
-const kRest_ms = 600; // after the last change was to be seen, at least, the whole one follows
+const kRest_ms = 600; // after the last change, at least, the whole one follows
 
 export class Detail {
   isWhole = false; // what is to be drawn now
   readonly drawnSoFar = { whole: 0, gist: 0 };
   private wholeTook_ms = Infinity;
   private timer = 0;
-  private frame = 0;
 
   constructor(private readonly redraw: () => void) {}
 
@@ -20,21 +19,14 @@ export class Detail {
   /** After a picture that took that long. */
   drawn(took_ms: number) {
     clearTimeout(this.timer);
-    cancelAnimationFrame(this.frame);
     ++this.drawnSoFar[this.isWhole ? "whole" : "gist"];
     if (this.isWhole) {
       this.wholeTook_ms = took_ms;
       return;
     }
-    const begin = performance.now();
-    const wait = () => {
-      const rest_ms = Math.max(kRest_ms, 3 * (performance.now() - begin));
-      this.timer = window.setTimeout(() => {
-        this.isWhole = true;
-        this.redraw();
-      }, rest_ms);
-    };
-    // the frame after the next one waits for the renderer, however slow that is
-    this.frame = requestAnimationFrame(() => { this.frame = requestAnimationFrame(wait); });
+    this.timer = window.setTimeout(() => {
+      this.isWhole = true;
+      this.redraw();
+    }, Math.max(kRest_ms, 3 * took_ms));
   }
 }

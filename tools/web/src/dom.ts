@@ -43,17 +43,15 @@ export function select<T extends string>(
   return element;
 }
 
-export function toggle(text: string, on: boolean, change: (on: boolean) => void): HTMLElement {
-  const box = make("input", { type: "checkbox", checked: on, change: () => change(box.checked) });
+export function toggle(text: string, on: boolean, change: (on: boolean) => void, name = "") {
+  const box = make("input",
+    { type: "checkbox", name, checked: on, change: () => change(box.checked) });
   return make("label", { class: "toggle" }, box, text);
 }
 
 /** "1,234.5" */
 export const number = (value: number, decimals = 0) => value.toLocaleString("en-US",
   { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
-
-/** "28.1", as the tables have it. */
-export const minutes = (seconds: number) => number(seconds / 60, 1);
 
 /** "34.7 m", which no line breaks. */
 export const measure = (value: string, unit: string) => (unit === "" ? value
@@ -63,3 +61,14 @@ export const measure = (value: string, unit: string) => (unit === "" ? value
 export const significant = (value: number) => (value !== 0 && Math.abs(value) < 1e-3
   ? value.toExponential(2) : value.toLocaleString("en-US",
     { minimumSignificantDigits: 3, maximumSignificantDigits: 3 }));
+
+export function saveFile(blob: Blob | null, name: string) {
+  if (!blob) return;
+  const url = URL.createObjectURL(blob);
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
+/** For file names: "a_b" of "A: b". */
+export const fileName = (title: string) =>
+  title.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "") || "gnbv";

@@ -4,7 +4,7 @@ import type { Clock, Effort } from "./clock";
 import type { CameraData, RunData } from "./data";
 import { number } from "./dom";
 
-export interface Pose {
+interface Pose {
   p: Vector3; // metres, world
   q: Quaternion; // body in world
 }
@@ -30,6 +30,7 @@ export class Flight {
   readonly workspace: Box3; // in which the vehicle may fly
   readonly size_m: number; // from corner to corner of it
   readonly range_m: number; // of the camera that sees farthest
+  readonly sight_m: number; // farther than this what it sees would fill the picture
   private readonly efforts: Record<Effort, number[]>; // after n views
   private readonly times: number[]; // of the mission, likewise
 
@@ -43,6 +44,7 @@ export class Flight {
     this.workspace = new Box3(new Vector3(...workspace_min), new Vector3(...workspace_max));
     this.size_m = this.workspace.min.distanceTo(this.workspace.max);
     this.range_m = Math.max(...cameras.map(({ range_m }) => range_m));
+    this.sight_m = Math.min(this.range_m, 0.25 * this.size_m);
   }
 
   /** After `n` views. */
@@ -116,8 +118,8 @@ export class Flight {
     return this.samplesBy(begin);
   }
 
-  /** Where the vehicle is before the first view; null where no path was recorded. */
-  profileEnd(): Vector3 | null { return this.flownPose(this.times[0])?.p ?? null; }
+  /** Where the vehicle is before the first view, x y z; empty where no path was recorded. */
+  profileEnd(): number[] { return this.flownPose(this.times[0])?.p.toArray() ?? []; }
 
   private flownPose(at: number): Pose | null {
     if (!this.data.path) return null;

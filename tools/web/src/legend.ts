@@ -1,6 +1,6 @@
 // What everything in the 3D view means, in words beside its colour.
-import { kBelievedKinds } from "./believed";
 import { cssOf, rampGradient, wordsOf, type RampName } from "./colours";
+import { kBelievedKinds } from "./decisions";
 import { colourBar, make, mark, measure, number, ofRun, type Child } from "./dom";
 import type { RunScene, Layers } from "./run_scene";
 import { ofVoxels, type Colouring } from "./surfaces";
@@ -59,10 +59,10 @@ function ofColouring(scenes: RunScene[], by: Colouring, things: string): HTMLEle
     return make("span", {}, ...bar.childNodes, ...ofEach(measured,
       clouds.map(({ error_median_mm }) => measure(number(error_median_mm), "mm"))));
   }
-  const dense = scenes.filter(({ model }) => model.densities);
+  const dense = scenes.filter(({ flight }) => flight.data.voxels);
   if (dense.length === 0) return make("span", {}, "no voxels");
-  const most = dense.map(({ model }) => model.densities!.most);
-  const size_m = dense[0].model.densities!.voxels.size_m;
+  const most = dense.map(({ model }) => model.densities.most);
+  const { size_m } = dense[0].model.densities.voxels;
   return amountItem(dense, `${things}: density`, most.map((high) => [0, high]),
     shortly(Math.min(...most) < 10 ? 1 : 0),
     `or more points a voxel of ${measure(number(size_m, 2), "m")}`);
@@ -113,15 +113,15 @@ function surfaceItems(scenes: RunScene[], layers: Layers, by: Colouring) {
 
 function flightItems(scenes: RunScene[], layers: Layers) {
   const hasViews = scenes.some(({ flight }) => flight.n > 0);
-  const sights = scenes.map((scene) => scene.sight());
-  const lengths = sights.map(({ length_m }) => measure(number(length_m, 1), "m"));
+  const isWhole = scenes.every(({ flight }) => flight.sight_m === flight.range_m);
+  const lengths = scenes.map(({ flight }) => measure(number(flight.sight_m, 1), "m"));
   return [layers.path && hasViews && orderItem("path, views: first", "last"),
     layers.frusta && hasViews && item("line", rampGradient("path"), "pyramid of each view"),
     (layers.profile || (layers.path && !hasViews)) && thing("line", "profile"),
     layers.plan && scenes.some((scene) => scene.plan) && thing("line", "plan"),
     layers.vehicle && thing("dot", "hull", ", enlarged where it would be a speck"),
     layers.vehicle && !layers.candidates && hasViews && thing("line", "camera",
-      ...sights.every(({ isWhole }) => isWhole) ? [] : [" to", ...ofEach(scenes, lengths)])];
+      ...isWhole ? [] : [" to", ...ofEach(scenes, lengths)])];
 }
 
 /** Each kind once, with the counts of all runs. */

@@ -3,30 +3,18 @@ import type { Sphere, Vector3 } from "three";
 import { Clock } from "./clock";
 import { cssOnPage, setLooks } from "./colours";
 import { firstChoice, listenToKeys, makeLayerBar, makeTransport } from "./controls";
-import { make, ofRun } from "./dom";
+import { fileName, make, ofRun } from "./dom";
 import { Flight } from "./flight";
-import { FrameStrip } from "./frame_strip";
 import { legendItems } from "./legend";
 import { followRun } from "./live";
-import { makeMissedList } from "./missed";
 import { readPage } from "./page";
 import * as panels from "./panels";
 import { hashOf, readState } from "./permalink";
-import { viewsThatSaw } from "./pick";
 import { Plots } from "./plots";
+import { viewsThatSaw } from "./pointing";
 import { RunScene } from "./run_scene";
-import { fileName } from "./save";
 import { Stage } from "./stage";
-
-/** The 3D view; null where the browser cannot draw it. */
-function makeStage(...args: ConstructorParameters<typeof Stage>): Stage | null {
-  try {
-    return new Stage(...args);
-  } catch (error) {
-    console.warn(error);
-    return null;
-  }
-}
+import { makeMissedList } from "./true_surface";
 
 function build() {
   const page = readPage();
@@ -36,18 +24,17 @@ function build() {
   const clock = new Clock();
   const flights = page.runs.map((run, i) => new Flight(run, i, clock));
   const scenes = flights.map((flight) => new RunScene(flight, page.meshes[flight.data.mesh]));
-  const stage = makeStage(scenes, clock, fileName(page.title));
+  const stage = Stage.make(scenes, clock, fileName(page.title));
   const isAlone = flights.length === 1;
-  const plots = new Plots(page.plots, flights, clock);
-  const strip = new FrameStrip();
+  const plots = new Plots(page.plots, clock);
+  const strip = new panels.FrameStrip();
   const words = make("p", { class: "readout", "aria-live": "off" });
   const key = make("p", { class: "legend", "aria-label": "Legend" });
   const why = make("div", { class: "why" });
   const missed = make("div", { class: "missed-list" });
   const state = readState(location.hash);
   const chosen = firstChoice(scenes, state);
-  const asked = state.runs?.filter((run) => run in flights);
-  const shown = new Set(asked && (asked.length > 0 || state.runs!.length === 0) ? asked
+  const shown = new Set(state.runs?.every((run) => run in flights) ? state.runs
     : [...flights.keys()].slice(0, 4)); // more panes are too small
   const shownScenes = () => scenes.filter(({ flight }) => shown.has(flight.index));
   const shownFlights = () => shownScenes().map(({ flight }) => flight);
@@ -85,7 +72,7 @@ function build() {
   const setShown = () => {
     stage?.setShown(shownScenes());
     changed();
-    plots.setFlights(shownFlights());
+    plots.build({ hidden: page.runs.filter((_, i) => !shown.has(i)).map(({ label }) => label) });
     clock.setFlights(shownFlights());
   };
   const layerBar = stage && makeLayerBar(scenes, stage, chosen, changed);
@@ -101,23 +88,21 @@ function build() {
       make("div", { class: isAlone ? "board" : "board several" },
         make("section", { class: "mission", "aria-label": "The mission in 3D" },
           make("div", { class: "card view" }, layerBar, stage?.element
-            ?? make("div", { class: "stage none" }, make("p", { class: "nothing" },
-              "3D needs WebGL, which this browser or its settings do not offer.")),
+            ?? make("p", { class: "nothing" },
+              "3D needs WebGL, which this browser or its settings do not offer."),
           stage && key, makeTransport(clock, words), words, why),
           strip.element),
         make("div", { class: "side" }, plots.element, missed)),
       page.tables.length > 0 ? make("section", {}, make("h2", {},
         page.tables.some((table) => table.rows.some((row) => row.includes("paper")))
           ? "Beside the paper" : "In one table"),
-        ...page.tables.map(panels.makeTable)) : "",
-      panels.makeMissing(page.runs) ?? "",
+        ...page.tables.map(panels.makeTable)) : null,
+      panels.makeMissing(page.runs),
       panels.makeConfiguration(page.runs)),
     panels.makeFooter(page));
   const showMissed = (scene: RunScene, { center, radius }: Sphere, back: Vector3) => {
-    if (!chosen.layers.missed) {
-      [...layerBar!.querySelectorAll("label")].find(({ textContent }) => textContent === "Missed")!
-        .click();
-    }
+    const box = layerBar!.querySelector<HTMLInputElement>("[name=missed]")!;
+    if (!box.checked) box.click();
     stage!.lookAt(scene, center, back, radius);
     stage!.element.scrollIntoView({ block: "nearest" });
   };

@@ -19,14 +19,15 @@ function coloursOf(places: Numbers, colours: Numbers | number): Numbers {
 }
 
 /** Of places, x y z each, of one colour or r g b each. */
-export function geometryOf(places: Numbers, colours: Numbers | number): three.BufferGeometry {
+function geometryOf(places: Numbers, colours: Numbers | number): three.BufferGeometry {
   return new three.BufferGeometry()
     .setAttribute("position", new three.Float32BufferAttribute(places, 3))
     .setAttribute("color", new three.Float32BufferAttribute(coloursOf(places, colours), 3));
 }
 
-/** Lines of that width; three numbers an end, of places and, where they are not of one, of colours. */
-export function makeTube(places: Numbers, colours: Numbers | number, width_px: number, opacity = 1) {
+/** Lines of that width; three numbers an end. */
+export function makeTube(places: Numbers, colours: Numbers | number, width_px: number,
+    opacity = 1) {
   const geometry = new LineSegmentsGeometry().setPositions(Float32Array.from(places))
     .setColors(Float32Array.from(coloursOf(places, colours)));
   return new LineSegments2(geometry, new LineMaterial({ linewidth: width_px, vertexColors: true,
@@ -169,15 +170,15 @@ export class PlanMark extends ViewMark {
   }
 }
 
-/** What the cameras see, out to their range or to `most_m`, on the vehicle's pose. */
+/** What the cameras see, on the vehicle's pose. */
 export class SightMark extends ViewMark {
-  constructor(private readonly flight: Flight, private readonly most_m: number) { super(); }
+  constructor(private readonly flight: Flight) { super(); }
 
   protected parts(n: number): three.Object3D[] {
     const colour = colourOf("camera");
     return this.flight.camerasAt(Math.max(0, n - 1)).flatMap((camera) => {
       const T = new three.Matrix4().fromArray(camera.T_body_camera);
-      const depth = Math.min(camera.range_m, this.most_m);
+      const depth = Math.min(camera.range_m, this.flight.sight_m);
       const edges = pyramidEdges(camera, T, depth);
       const corners = pictureCorners(camera, T, depth);
       const sides = corners.flatMap((corner, i) => [edges[0], corner, corners[(i + 1) % 4]]);

@@ -19,7 +19,8 @@ export function readState(hash: string): Partial<PageState> {
     return all?.every(Number.isFinite) && all.length === (count ?? all.length) ? all : undefined;
   };
   return { effort: kEfforts.find(([effort]) => effort === words.get("by"))?.[0],
-    at: numbers("at")?.[0], camera: numbers("camera", 6), layers: list("layers"), // of none: all off
+    at: numbers("at")?.[0], camera: numbers("camera", 6),
+    layers: list("layers"), // of none: all are off
     colour: words.get("colour") ?? undefined, runs: numbers("runs") };
 }
 

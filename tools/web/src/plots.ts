@@ -4,9 +4,8 @@
 import { kEfforts, type Clock } from "./clock";
 import { cssOnPage } from "./colours";
 import type { Plot, PlotChoice } from "./data";
-import { make, mark, number, select, significant } from "./dom";
-import { lastAtMost, type Flight } from "./flight";
-import { fileName, saveFile } from "./save";
+import { fileName, make, mark, number, saveFile, select, significant } from "./dom";
+import { lastAtMost } from "./flight";
 
 /** Of figures.schema.json, with numbers as arrays in which NaN is what is not known. */
 interface Axis { label: string; low: number; high: number; ticks: { at: number; text: string }[] }
@@ -18,6 +17,7 @@ export interface Figure { notes: string[]; panels: Panel[] }
 
 const kLeft = 60;
 const kRight = 16;
+const kPaper_px = 450;
 const kFont_px = 11;
 const kLane = 9; // of a panel of intervals
 const kKeys = 4; // a row
@@ -82,48 +82,67 @@ function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, 
 
 /** One plot with what is chosen of it, of the runs that are shown. */
 class PlotView {
-  readonly element: HTMLElement;
+  readonly element = make("figure", { class: "card plot" });
+  private chosen = 0;
+  private panels: Panel[] = [];
+  private named: { series: Series; value: HTMLElement }[] = [];
   private width = 0; // as it is drawn
   private readonly place = make("div", { class: "plot-place" });
   private readonly now = make("i", { class: "now" }); // moving it draws no plot anew
-  private readonly panels: Panel[];
-  private readonly named: { series: Series; value: HTMLElement }[];
 
-  constructor(plot: Plot, { notes, panels }: Figure, words: string, private readonly all: Plots,
-      controls: HTMLElement[]) {
-    this.panels = panels.map((panel) => ({ ...panel,
-      series: panel.series.filter(({ name }) => all.isShown(name)) }))
-      .filter(({ series }) => series.length > 0);
-    const main = this.panels.at(-1);
-    this.named = main?.series.filter(({ label }) => label !== "")
-      .map((series) => ({ series, value: make("b") })) ?? [];
-    const title = `${plot.title}${words} ${main?.y.label ?? ""}`.trim();
-    const hasShades = main && main.shades.spans.length > 0 && plot === all.plots[0];
-    this.element = make("figure", { class: "card plot" }, make("figcaption", {},
-      make("span", { class: "plot-title", title: plot.note }, plot.title),
-      make("span", { class: "plot-choice" }, words),
-      make("span", { class: "unit" }, main?.y.label ?? ""),
-      make("span", { class: "marks-key" }, ...notes.map((note) => make("span", {}, note)),
-        ...this.panels.filter(isLanes).map(({ y }) => make("span", {},
-          mark("line", "var(--pale)"), y.label)),
-        hasShades ? make("span", {}, mark("dot", "var(--phase)"), main.shades.label) : null),
-      ...controls),
-    ...!main ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
-      : [this.place, make("div", { class: "values" }, ...this.named.map(({ series, value }) =>
-        make("span", {}, mark("line", cssOnPage(series.colour)), series.label, " ", value))),
-      make("button", { class: "small save", title: `${plot.title} as SVG`, click: () => {
-        const svg = this.drawn({ width: 640, height: 400, left: 64, title });
-        saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
-      } }, "SVG")]);
+  constructor(private readonly plot: Plot, private readonly all: Plots) {
     for (const kind of ["pointerdown", "pointermove", "pointerleave"] as const) {
       this.place.addEventListener(kind, (event) => this.point(event));
     }
   }
 
+  build() {
+    const { plot, all } = this;
+    const choice: PlotChoice | undefined = plot.choices[this.chosen];
+    const hasMeans = (choice?.means.length ?? 0) > 0;
+    const isMean = hasMeans && all.showsMeans;
+    const figure: Figure | undefined = (isMean ? choice?.means : choice?.runs)?.[all.effort()];
+    this.panels = figure?.panels.map((panel) => ({ ...panel,
+      series: panel.series.filter(({ name }) => !all.hidden.includes(name)) }))
+      .filter(({ series }) => series.length > 0) ?? [];
+    const main = this.panels.at(-1);
+    this.named = main?.series.filter(({ label }) => label !== "")
+      .map((series) => ({ series, value: make("b") })) ?? [];
+    const words = (plot.choices.length > 1 ? `, ${choice.label.replace(/^[A-Z]/, (c) =>
+      c.toLowerCase())}` : "") + (isMean ? ", means of seeds" : "");
+    const isFirst = plot === all.plots[0];
+    this.width = 0;
+    this.element.replaceChildren(make("figcaption", {},
+      make("span", { class: "plot-title", title: plot.note }, plot.title),
+      make("span", { class: "plot-choice" }, words),
+      make("span", { class: "unit" }, main?.y.label ?? ""),
+      make("span", { class: "marks-key" },
+        ...figure?.notes.map((note) => make("span", {}, note)) ?? [],
+        ...this.panels.filter(isLanes).map(({ y }) =>
+          make("span", {}, mark("line", "var(--pale)"), y.label)),
+        isFirst && main && main.shades.spans.length > 0
+          ? make("span", {}, mark("dot", "var(--phase)"), main.shades.label) : null),
+      isFirst && hasMeans ? select("Runs of several seeds",
+        [["runs", "Each run"], ["means", "Means"]], isMean ? "means" : "runs",
+        (value) => all.build({ showsMeans: value === "means" })) : null,
+      plot.choices.length > 1 ? select(plot.chooses, plot.choices.map(({ label: name }, k) =>
+        [String(k), name]), String(this.chosen), (value) => {
+        this.chosen = Number(value);
+        all.build();
+      }) : null),
+    ...!main ? [make("p", { class: "nothing" }, "Not recorded by this run.")]
+      : [this.place, make("div", { class: "values" }, ...this.named.map(({ series, value }) =>
+        make("span", {}, mark("line", cssOnPage(series.colour)), series.label, " ", value))),
+      make("button", { class: "small save", title: `${plot.title} as SVG`, click: () => {
+        const svg = this.drawn({ width: 640, height: 400, left: 64,
+          title: `${plot.title}${words} ${main.y.label}`.trim() });
+        saveFile(new Blob([svg], { type: "image/svg+xml" }), `${fileName(plot.title)}.svg`);
+      } }, "SVG")]);
+  }
+
   /** Anew where the page has become narrower or wider. */
-  fit() {
-    const { clientWidth: width } = this.place;
-    if (width === 0 || width === this.width) return;
+  fit(width = this.place.clientWidth) {
+    if (width === 0 || width === this.width || this.panels.length === 0) return;
     this.width = width;
     this.place.innerHTML = this.drawn({ width, height: 168 + heightOf(this.panels), left: kLeft });
     this.place.append(this.now);
@@ -178,34 +197,31 @@ const valueText = (value: number) =>
 
 export class Plots {
   readonly element = make("section", { class: "plots", "aria-label": "Plots" });
-  private hidden: string[] = []; // labels of runs
-  private views: PlotView[] = [];
+  hidden: string[] = []; // labels of runs
+  showsMeans = false;
+  private readonly views: PlotView[];
   private shownBy = "";
   private hovered: number | null = null;
-  private showsMeans = false;
-  private readonly chosen: number[]; // of each plot
 
-  constructor(readonly plots: Plot[], private readonly flights: Flight[],
-      private readonly clock: Clock) {
-    this.chosen = plots.map(() => 0);
+  constructor(readonly plots: Plot[], private readonly clock: Clock) {
+    this.views = plots.map((plot) => new PlotView(plot, this));
+    this.element.append(...this.views.map(({ element }) => element));
     clock.onChange(() => {
-      if (clock.effort !== this.shownBy) this.rebuild(); else this.follow();
+      if (clock.effort !== this.shownBy) this.build(); else this.follow();
     });
     new ResizeObserver(() => this.fit()).observe(this.element);
+    addEventListener("beforeprint", () => this.fit(kPaper_px));
+    addEventListener("afterprint", () => this.fit());
   }
 
-  isShown(series: string) { return !this.hidden.includes(series); }
+  /** Index of the clock's, as figures come. */
+  effort() { return kEfforts.findIndex(([name]) => name === this.clock.effort); }
 
-  setFlights(shown: Flight[]) {
-    this.hidden = this.flights.filter((flight) => !shown.includes(flight))
-      .map(({ data }) => data.label);
-    this.rebuild();
-  }
-
-  private rebuild() {
+  /** Anew, with what has changed. */
+  build(change: Partial<Pick<Plots, "hidden" | "showsMeans">> = {}) {
+    Object.assign(this, change);
     this.shownBy = this.clock.effort;
-    this.views = this.plots.map((plot, i) => this.viewOf(plot, i));
-    this.element.replaceChildren(...this.views.map(({ element }) => element));
+    for (const view of this.views) view.build();
     this.fit();
   }
 
@@ -216,35 +232,13 @@ export class Plots {
     this.follow();
   }
 
-  private viewOf(plot: Plot, i: number): PlotView {
-    const choice: PlotChoice | undefined = plot.choices[this.chosen[i]];
-    const hasMeans = (choice?.means.length ?? 0) > 0;
-    const isMean = this.showsMeans && hasMeans;
-    const effort = kEfforts.findIndex(([name]) => name === this.clock.effort);
-    const figure = (isMean ? choice?.means : choice?.runs)?.[effort];
-    const controls = [
-      i === 0 && hasMeans && select("Runs of several seeds",
-        [["runs", "Each run"], ["means", "Means"]], isMean ? "means" : "runs", (value) => {
-          this.showsMeans = value === "means";
-          this.rebuild();
-        }),
-      plot.choices.length > 1 && select(plot.chooses, plot.choices.map(({ label: words }, k) =>
-        [String(k), words]), String(this.chosen[i]), (value) => {
-        this.chosen[i] = Number(value);
-        this.rebuild();
-      })].filter((control) => control !== false);
-    const words = (plot.choices.length > 1 ? `, ${choice.label.replace(/^[A-Z]/, (c) =>
-      c.toLowerCase())}` : "") + (isMean ? ", means of seeds" : "");
-    return new PlotView(plot, figure ?? { notes: [], panels: [] }, words, this, controls);
-  }
-
   /** The replay's place, and the values there while no cursor asks for others. */
   private follow() {
     for (const view of this.views) view.follow(this.clock.at, this.hovered ?? this.clock.at);
   }
 
-  private fit() {
-    for (const view of this.views) view.fit();
+  private fit(width?: number) {
+    for (const view of this.views) view.fit(width);
     this.follow();
   }
 }

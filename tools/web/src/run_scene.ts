@@ -1,19 +1,15 @@
 // The scene of one run: what is there, and what of it shows at a moment of the replay.
 import * as three from "three";
-import { BelievedMarks } from "./believed";
-import { CandidateMarks } from "./candidates";
+import { Structure, makeVehicle, readRunSurface } from "./bodies";
 import { hairline } from "./colours";
 import type { MeshData, RunData } from "./data";
+import { BelievedMarks, CandidateMarks } from "./decisions";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
-import { kMarkLayer, kSun, type Shot } from "./painter";
-import type { Thing } from "./pick";
-import { readRunSurface } from "./run_surface";
-import { Splats } from "./splats";
-import { Structure } from "./structure";
+import { Splats, kMarkLayer, kSun, type Shot } from "./painter";
+import type { Thing } from "./pointing";
 import { Model, type Colouring } from "./surfaces";
 import { TrueSurface } from "./true_surface";
-import { makeVehicle } from "./vehicle";
 
 /** Which of the scene's layers are shown, by their names (tools/scene/looks.cpp). */
 export type Layers = Record<string, boolean>;
@@ -61,13 +57,13 @@ export class RunScene {
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
     this.candidates = data.candidates
-      && new CandidateMarks(flight, this.model, data.candidates, this.sightMost_m());
+      && new CandidateMarks(flight, this.model, data.candidates);
     this.believed = data.beliefs && new BelievedMarks(data.beliefs);
     this.surface = mesh?.surface && data.found
       ? new TrueSurface(mesh.surface, data.found, flight.count) : null;
     this.runSurface = data.surface && readRunSurface(data.surface, () => this.onLoad());
     this.body = makeVehicle(data);
-    this.sightMark = new SightMark(flight, this.sightMost_m());
+    this.sightMark = new SightMark(flight);
     this.vehicle.add(this.body, this.sightMark.object);
     const sun = new three.DirectionalLight(0xffffff, 2.1);
     sun.position.copy(kSun);
@@ -115,7 +111,7 @@ export class RunScene {
     }
     if (runSurface) runSurface.visible = side !== "truth" && layers.surface;
     model.showsPoints = side === "all" && layers.cloud;
-    if (model.voxels) model.voxels.visible = side === "all" && layers.voxels;
+    model.voxels.visible = side === "all" && layers.voxels;
   }
 
   colour(by: Colouring) {
@@ -160,23 +156,8 @@ export class RunScene {
     this.body.scale.setScalar(Math.max(1, 0.028 * away / flight.data.radius_m));
   }
 
-  /** Where cameras see farther than this they would fill the picture. */
-  private sightMost_m(): number { return 0.25 * this.flight.size_m; }
-
-  /** How far what the cameras see is drawn, and whether that is as far as they see. */
-  sight(): { length_m: number; isWhole: boolean } {
-    const length_m = Math.min(this.flight.range_m, this.sightMost_m());
-    return { length_m, isWhole: length_m === this.flight.range_m };
-  }
-
   /** Metres over which shading is to look for the slope of what has no normals; 0: it is not to. */
   relief_m(): number { return this.surface?.isVisible() ? 2.5 * this.surface.size_m : 0; }
-
-  /** From corner to corner of all that can show: structure, points, where the vehicle may fly. */
-  extent_m(): number {
-    const box = new three.Box3().setFromBufferAttribute(this.outline());
-    return box.union(this.flight.workspace).getSize(new three.Vector3()).length();
-  }
 
   /**
    * Places that a camera should show: what stands there, where the views are and the profile ends,
@@ -184,7 +165,10 @@ export class RunScene {
    */
   outline(): three.BufferAttribute {
     const { flight, layers } = this;
-    const parts: ArrayLike<number>[] = [this.shape(), this.aroundProfileEnd(),
+    const reach_m = 0.03 * flight.size_m; // of the vehicle, enlarged as it is from afar
+    const around = Array.from({ length: 8 }, (_, corner) => flight.profileEnd().map((x, axis) =>
+      x + (corner >> axis & 1 ? reach_m : -reach_m)));
+    const parts: ArrayLike<number>[] = [this.shape(), ...around,
       flight.data.views.pose.filter((_, i) => i % 4 < 3)];
     if (layers.profile) parts.push(flight.points?.subarray(0, 3 * flight.profileSamples()) ?? []);
     const shown = [layers.candidates ? this.candidates?.now.map(({ at }) => at) : null,
@@ -203,14 +187,6 @@ export class RunScene {
     return places.length > 0 ? places : [...min.toArray(), ...max.toArray()];
   }
 
-  /** Corners around the vehicle, enlarged as it is from afar, before the first view. */
-  private aroundProfileEnd(): number[] {
-    const end = this.flight.profileEnd()?.toArray() ?? [];
-    const reach_m = 0.12 * this.sightMost_m();
-    return end.length === 0 ? [] : Array.from({ length: 8 }, (_, corner) =>
-      end.map((x, axis) => x + (corner >> axis & 1 ? reach_m : -reach_m))).flat();
-  }
-
   /** What a pointer can name, as it is shown. */
   *things(): Generator<Thing> {
     const { surface, flight } = this;
@@ -227,7 +203,8 @@ export class RunScene {
           ? `, found first by ${words(first - 1)}` : " that no view found"}` };
     }
     for (const { at, view } of this.model.shownPoints()) {
-      yield { at, ahead: 0, view: Math.max(view, 0), what: () => `A point that ${words(view)} brought` };
+      yield { at, ahead: 0, view: Math.max(view, 0),
+        what: () => `A point that ${words(view)} brought` };
     }
   }
 }

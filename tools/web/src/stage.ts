@@ -1,18 +1,15 @@
 // The 3D view: a pane for each run that is shown, and one camera for all of them.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Axes } from "./axes";
 import type { Clock } from "./clock";
 import { Detail } from "./detail";
-import { make, ofRun } from "./dom";
-import { Painter, kGistRatio } from "./painter";
+import { make, ofRun, saveFile } from "./dom";
+import { Axes, Swipe } from "./overlays";
+import { Painter, kGistRatio, type Pane } from "./painter";
 import { PaneCamera, nearestThatSees } from "./pane_camera";
-import { pick } from "./pick";
-import { Pointing } from "./pointing";
+import { Pointing, pick } from "./pointing";
 import type { Layers, RunScene } from "./run_scene";
-import { saveFile } from "./save";
 import type { Colouring } from "./surfaces";
-import { Swipe } from "./swipe";
 
 const kLeastPane_px = 400; // narrower ones stand one above the other
 const kAround = 0.35; // of the structure's extent, how far a camera stands from a part at least
@@ -43,7 +40,16 @@ export class Stage {
   private isFramed = false;
   private isPrinted = false;
 
-  /** Throws where there is no WebGL. */
+  /** Null where the browser cannot draw it. */
+  static make(...args: ConstructorParameters<typeof Stage>): Stage | null {
+    try {
+      return new Stage(...args);
+    } catch (error) {
+      console.warn(error);
+      return null;
+    }
+  }
+
   constructor(private readonly scenes: RunScene[], clock: Clock, private readonly name: string) {
     this.shown = scenes;
     this.pointing = new Pointing((view) => clock.seek(view + 1));
@@ -149,7 +155,7 @@ export class Stage {
   /** At a place of the scene's and what stands around it, from `back` of it. */
   lookAt(scene: RunScene, centre: three.Vector3, back: three.Vector3, radius_m: number) {
     const { toFirst, scale } = this.paneCameras.get(scene)!;
-    const away_m = scale * Math.max(3.2 * radius_m, kAround * scene.extent_m());
+    const away_m = scale * Math.max(3.2 * radius_m, kAround * scene.flight.size_m);
     this.controls.target.copy(centre).applyMatrix4(toFirst);
     this.camera.position.copy(this.controls.target).addScaledVector(back, away_m);
     this.controls.update();
@@ -179,13 +185,12 @@ export class Stage {
   }
 
   private pickAt(x: number, y: number, near_px: number) {
-    const { width, height } = this.paneSize();
-    const pane = Math.floor(this.isColumn() ? y / height : x / width);
-    const scene = this.shown[pane];
-    if (!scene) return;
-    const [left, top] = this.isColumn() ? [0, pane * height] : [pane * width, 0];
-    this.pointing.tell(
-      pick(scene, this.cameraOf(scene), x - left, y - top, width, height, near_px), scene);
+    this.shown.forEach((scene, i) => {
+      const { left, top, width, height } = this.pane(i);
+      const [u, v] = [x - left, y - top];
+      if (u < 0 || v < 0 || u >= width || v >= height) return;
+      this.pointing.tell(pick(scene, this.cameraOf(scene), u, v, width, height, near_px), scene);
+    });
   }
 
   /** Puts the camera where it sees all that is shown. */
@@ -195,48 +200,42 @@ export class Stage {
     const box = new three.Box3();
     for (const outline of outlines) box.union(new three.Box3().setFromBufferAttribute(outline));
     const centre = box.getCenter(new three.Vector3());
-    const { width, height } = this.paneSize();
+    const { width, height } = this.pane(0);
     const back = new three.Vector3(0.55, -0.8, 0.5).normalize();
     const away = Math.max(1, ...outlines.map((outline) =>
       nearestThatSees(outline, centre, back, this.camera.fov, height / width)));
     this.isFramed = true;
-    this.setDepths(away);
+    // so that nothing is cut off, as far as anybody may go from such a picture
+    const extent = this.scenes[0].flight.size_m;
+    this.controls.maxDistance = 4 * Math.max(away, extent);
+    this.camera.far = this.controls.maxDistance + 2 * extent;
+    this.camera.near = this.camera.far / 2500;
+    this.camera.updateProjectionMatrix();
     this.camera.position.copy(centre).addScaledVector(back, away);
     this.controls.target.copy(centre);
     this.controls.update();
     this.invalidate();
   }
 
-  /** So that nothing is cut off, as far as anybody may go from a picture taken at `away`. */
-  private setDepths(away: number) {
-    const extent = this.scenes[0]?.extent_m() ?? 1;
-    this.controls.maxDistance = 4 * Math.max(away, extent);
-    this.camera.far = this.controls.maxDistance + 2 * extent;
-    this.camera.near = this.camera.far / 2500;
-    this.camera.updateProjectionMatrix();
-  }
-
   private cameraOf(scene: RunScene) { return this.paneCameras.get(scene)!.of(this.camera); }
-
-  private isColumn() {
-    if (this.isPrinted) return this.shown.length === 2;
-    return this.element.clientWidth < kLeastPane_px * this.shown.length;
-  }
 
   private sizeNow() { return `${this.element.clientWidth}x${this.element.clientHeight}`; }
 
-  private paneSize() {
-    const count = Math.max(1, this.shown.length);
-    const { clientWidth: w, clientHeight: h } = this.element;
-    return this.isColumn() ? { width: w, height: h / count } : { width: w / count, height: h };
+  /** Where the pane of a run that is shown lies; where none is, the place of one. */
+  private pane(i: number): Pane {
+    const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } =
+      (this.labels.children[i] ?? this.labels) as HTMLElement;
+    return { left, top, width, height };
   }
 
   private resize() {
     const { clientWidth, clientHeight } = this.element;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.labels.classList.toggle("column", this.isColumn());
+    const { length } = this.shown;
+    this.labels.classList.toggle("column", this.isPrinted ? length === 2
+      : clientWidth < kLeastPane_px * length);
     this.detail.change();
-    const { width, height } = this.paneSize();
+    const { width, height } = this.pane(0);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (!this.isFramed) this.frame();
@@ -257,21 +256,20 @@ export class Stage {
   private draw() {
     this.isStale = false;
     const { isWhole } = this.detail;
-    const { width, height } = this.paneSize();
-    const { clientWidth, clientHeight: total } = this.element;
-    if (clientWidth === 0 || total === 0) return;
+    const { clientWidth, clientHeight } = this.element;
+    if (clientWidth === 0 || clientHeight === 0) return;
     const begin = performance.now();
     const ratio = (this.isPrinted ? 2 : Math.min(2, devicePixelRatio)) * (isWhole ? 1 : kGistRatio);
-    this.painter.fitCanvas(clientWidth, total, ratio);
-    const pxPerTan = 0.5 * height * ratio /
-      Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
+    this.painter.fitCanvas(clientWidth, clientHeight, ratio);
+    const perTan = 0.5 * ratio / Math.tan(three.MathUtils.degToRad(this.camera.fov) / 2);
     this.axes.show(this.camera);
     this.shown.forEach((scene, i) => {
-      const [x, y] = this.isColumn() ? [0, total - (i + 1) * height] : [i * width, 0];
-      this.painter.paint(scene, { camera: this.cameraOf(scene), pxPerTan, isWhole },
-        { x, y, width, height }, this.swipe.share);
+      const pane = this.pane(i);
+      this.painter.paint(scene,
+        { camera: this.cameraOf(scene), pxPerTan: perTan * pane.height, isWhole }, pane,
+        this.swipe.share);
     });
-    if (isWhole) this.painter.wait();
+    this.painter.wait();
     this.detail.drawn(performance.now() - begin);
   }
 }

@@ -1,9 +1,69 @@
-// What the run measured of the surface: the points of the cloud, the voxels.
+// What the run measured of the surface: the points of the cloud, the voxels, how many each holds.
 import * as three from "three";
 import { colourOf, isDark, rampHex } from "./colours";
-import type { RunData } from "./data";
-import { Densities } from "./densities";
-import type { SplatSource } from "./splats";
+import type { RunData, VoxelData } from "./data";
+import { lastAtMost } from "./flight";
+import type { SplatSource } from "./painter";
+
+/** Of a cell by its index along each axis, 16 bits each; exact in a double. */
+export const keyOf = (x: number, y: number, z: number) => ((x + 32768) * 65536 + y + 32768) * 65536
+  + z + 32768;
+
+/**
+ * How many of the cloud's points each voxel holds at a state of the mission, with a ceiling that
+ * leaves out the densest few of the last one.
+ */
+class Densities {
+  readonly count: Uint32Array; // at this state
+  readonly most: number;
+  private state = 0; // of how many the gains are in `count`
+  private readonly cells = new Map<number, number>();
+
+  constructor(readonly voxels: VoxelData) {
+    const { index, gains_after } = voxels;
+    this.count = new Uint32Array(index.length / 3);
+    this.count.forEach((_, i) =>
+      this.cells.set(keyOf(index[3 * i], index[3 * i + 1], index[3 * i + 2]), i));
+    this.seek(gains_after.length - 1);
+    this.most = this.count.toSorted()[Math.floor(0.98 * (this.count.length - 1))] || 1;
+  }
+
+  /** To the counts after `views` views. */
+  seek(views: number) {
+    for (; this.state <= views; ++this.state) this.add(this.state, 1);
+    for (; this.state > views + 1; --this.state) this.add(this.state - 1, -1);
+  }
+
+  private add(state: number, sign: number) {
+    const { gains, gains_after } = this.voxels;
+    const begin = state > 0 ? gains_after[state - 1] : 0;
+    for (let i = begin, voxel = 0; i < gains_after[state]; i += 2) {
+      voxel += gains[i];
+      this.count[voxel] += sign * gains[i + 1];
+    }
+  }
+
+  centre(voxel: number) {
+    return new three.Vector3().fromArray(this.voxels.index, 3 * voxel).addScalar(0.5)
+      .multiplyScalar(this.voxels.size_m);
+  }
+
+  /** How far a ray goes until it meets one of the first `known` voxels; `far` if it meets none. */
+  firstHit(from: three.Vector3, way: three.Vector3, far: number, known: number): number {
+    const { size_m } = this.voxels;
+    for (let t = size_m; t < far; t += 0.4 * size_m) {
+      const voxel = this.voxelAt(from.x + t * way.x, from.y + t * way.y, from.z + t * way.z);
+      if (voxel >= 0 && voxel < known) return t;
+    }
+    return far;
+  }
+
+  /** Of the voxel in which the point lies; -1 where rounding put it into one without points. */
+  voxelAt(x: number, y: number, z: number): number {
+    const cell = (c: number) => Math.floor(c / this.voxels.size_m);
+    return this.cells.get(keyOf(cell(x), cell(y), cell(z))) ?? -1;
+  }
+}
 
 /** Colours by what the point is like; `real` is what the cameras saw. */
 export type Colouring = "height" | "density" | "iteration" | "error" | "real";
@@ -12,44 +72,41 @@ export type Colouring = "height" | "density" | "iteration" | "error" | "real";
 export const ofVoxels = (by: Colouring): Colouring =>
   (by === "real" || by === "error" ? "height" : by);
 
-/** Of each element by the state after which it was there first. */
-function firstStates(after: Uint32Array, count: number): Uint16Array {
-  const first = new Uint16Array(count);
-  for (let n = 1; n < after.length; ++n) first.fill(n, after[n - 1], after[n]);
-  return first;
-}
-
 const kNotOfStructure = 255; // among errors
 
 /** A quarter of a colour and three of the page's, so that something else shows. */
 const faded = (rgb: number, page: number) => (rgb >> 2 & 0x3f3f3f) + 3 * (page >> 2 & 0x3f3f3f);
 
+const kNoVoxels: VoxelData = { size_m: 1, index: new Int16Array(), after: new Uint32Array(),
+  gains: new Uint32Array(), gains_after: new Uint32Array() };
+
 /** Points and voxels of a run; both are there after as many views as show() says. */
 export class Model {
-  readonly voxels: three.InstancedMesh | null = null;
+  readonly voxels: three.InstancedMesh;
   readonly heights: [number, number];
-  readonly densities: Densities | null = null;
+  readonly densities: Densities;
   readonly points: Float32Array;
   showsPoints = true;
   isFaded = false; // but for the points of the last view
   private readonly colours: Uint32Array; // of points, 0xrrggbb
   private readonly cloudAfter: Uint32Array;
-  private readonly voxelsAfter: Uint32Array;
   private pointVoxels: Int32Array | null = null; // of each point, once asked for
   private by: Colouring = "height";
   private views = -1; // shown
 
   constructor(private readonly data: RunData) {
-    const { cloud, voxels } = data;
-    this.points = cloud?.points ?? new Float32Array();
+    this.points = data.cloud?.points ?? new Float32Array();
     this.colours = new Uint32Array(this.points.length / 3);
-    this.cloudAfter = cloud?.after ?? new Uint32Array(data.views.time.length + 1);
-    this.voxelsAfter = voxels?.after ?? new Uint32Array();
+    this.cloudAfter = data.cloud?.after ?? new Uint32Array(data.views.time.length + 1);
     const { min: { z: low }, max: { z: high } } = new three.Box3().setFromArray(this.points);
     this.heights = [low, Math.max(high, low + 1e-6)];
-    if (!voxels) return;
-    this.densities = new Densities(voxels);
-    this.voxels = this.makeVoxels(this.densities);
+    this.densities = new Densities(data.voxels ?? kNoVoxels);
+    const edge_m = 0.94 * this.densities.voxels.size_m;
+    this.voxels = new three.InstancedMesh(new three.BoxGeometry(edge_m, edge_m, edge_m),
+      new three.MeshLambertMaterial(), this.densities.count.length);
+    const T = new three.Matrix4();
+    this.densities.count.forEach((_, i) =>
+      this.voxels.setMatrixAt(i, T.setPosition(this.densities.centre(i))));
   }
 
   /** How many points the last of the first `n` views brought. */
@@ -59,20 +116,16 @@ export class Model {
     this.by = by;
     const colourOfPoint = this.pointColours(by);
     for (let i = 0; i < this.colours.length; ++i) this.colours[i] = colourOfPoint(i);
-    if (!this.voxels || !this.densities) return;
-    const { count } = this.densities;
-    const ramp = this.ramp(ofVoxels(by));
-    const first = firstStates(this.voxelsAfter, count.length);
+    const { count, voxels: { after } } = this.densities;
+    const colourOfVoxel =
+      this.ramp(ofVoxels(by), (i) => this.densities.centre(i).z, (i) => count[i], after);
     const colour = new three.Color();
-    for (let i = 0; i < count.length; ++i) {
-      this.voxels.setColorAt(i,
-        colour.setHex(ramp(this.densities.middle(i, 2), count[i], first[i])));
-    }
-    this.voxels.instanceColor!.needsUpdate = true;
+    count.forEach((_, i) => this.voxels.setColorAt(i, colour.setHex(colourOfVoxel(i))));
+    if (this.voxels.instanceColor) this.voxels.instanceColor.needsUpdate = true;
   }
 
   /** Voxels that held points before the view. */
-  voxelsKnown(view: number): number { return this.voxelsAfter[view] ?? 0; }
+  voxelsKnown(view: number): number { return this.densities.voxels.after[view] ?? 0; }
 
   /** The points that are shown: place, and the view that brought each (-1 the profile). */
   *shownPoints(): Generator<{ at: three.Vector3; view: number }> {
@@ -86,12 +139,11 @@ export class Model {
 
   /** After `n` views. */
   show(n: number) {
-    if (n !== this.views) {
-      this.views = n;
-      this.densities?.seek(n);
-      if (this.by === "density") this.colour(this.by); // as dense as it was then
-    }
-    if (this.voxels) this.voxels.count = this.voxelsAfter[n];
+    if (n === this.views) return;
+    this.views = n;
+    this.densities.seek(n);
+    if (this.by === "density") this.colour(this.by); // as dense as it was then
+    this.voxels.count = this.voxelsKnown(n);
   }
 
   /** The points that are shown; those of the last view are marked. */
@@ -107,14 +159,15 @@ export class Model {
       colourOf: (i) => (i >= newFrom ? ofNew : isFaded ? faded(colours[i], page) : colours[i]) }];
   }
 
-  /** Of a colouring: by height, points of the voxel, and the state after which it was there. */
-  private ramp(by: Colouring): (height: number, density: number, state: number) => number {
+  /** Of a colouring; `after` says how many elements there are after each state. */
+  private ramp(by: Colouring, height: (i: number) => number, density: (i: number) => number,
+      after: Uint32Array): (i: number) => number {
     const [low, high] = this.heights;
     const states = Math.max(1, this.data.views.time.length);
-    const most = this.densities?.most ?? 1;
-    if (by === "iteration") return (_, __, state) => rampHex("path", state / states);
-    if (by === "density") return (_, density) => rampHex("amount", density / most);
-    return (height) => rampHex("amount", (height - low) / (high - low));
+    const { most } = this.densities;
+    if (by === "iteration") return (i) => rampHex("path", (lastAtMost(after, i) + 1) / states);
+    if (by === "density") return (i) => rampHex("amount", density(i) / most);
+    return (i) => rampHex("amount", (height(i) - low) / (high - low));
   }
 
   private pointColours(by: Colouring): (point: number) => number {
@@ -128,28 +181,9 @@ export class Model {
       return (i) => (error[i] === kNotOfStructure ? 0x808080
         : rampHex("error", error[i] / error_most_mm));
     }
-    const ramp = this.ramp(by);
-    const first = firstStates(this.cloudAfter, points.length / 3);
-    const voxels = by === "density" ? this.voxelsOfPoints() : null;
-    return (i) => ramp(points[3 * i + 2], voxels ? densities?.count[voxels[i]] ?? 0 : 0, first[i]);
-  }
-
-  private voxelsOfPoints(): Int32Array {
-    const { points } = this;
-    return this.pointVoxels ??= Int32Array.from(this.colours, (_, i) =>
-      this.densities?.voxelAt(points[3 * i], points[3 * i + 1], points[3 * i + 2]) ?? -1);
-  }
-
-  private makeVoxels(densities: Densities): three.InstancedMesh {
-    const { count, voxels: { size_m } } = densities;
-    const box = new three.BoxGeometry(0.94 * size_m, 0.94 * size_m, 0.94 * size_m);
-    const mesh = new three.InstancedMesh(box, new three.MeshLambertMaterial(), count.length);
-    const T = new three.Matrix4();
-    for (let i = 0; i < count.length; ++i) {
-      const [x, y, z] = [0, 1, 2].map((axis) => densities.middle(i, axis));
-      mesh.setMatrixAt(i, T.makeTranslation(x, y, z));
-    }
-    mesh.frustumCulled = false;
-    return mesh;
+    const voxels = by !== "density" ? [] : this.pointVoxels ??= Int32Array.from(this.colours,
+      (_, i) => densities.voxelAt(points[3 * i], points[3 * i + 1], points[3 * i + 2]));
+    return this.ramp(by, (i) => points[3 * i + 2], (i) => densities.count[voxels[i]] ?? 0,
+      this.cloudAfter);
   }
 }

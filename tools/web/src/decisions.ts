@@ -1,11 +1,14 @@
-// Why this view: the candidates of the decision that chose it, with what became of each.
+// Why this view: the candidates of the decision that chose it, with what became of each; and for
+// whose sake: the voxels that its rays were to cross, as they were believed before, and the
+// frontiers that views were sampled around.
 import * as three from "three";
 import { colourOf, cssOf, cssOnPage, isDark, onPage, ramp, rampGradient, reason } from "./colours";
-import type { CandidateData } from "./data";
+import type { BeliefData, CandidateData } from "./data";
 import { make, number, significant } from "./dom";
 import type { Flight } from "./flight";
 import { ViewMark, makeDots, makeLines, makeTube, numbersOf } from "./marks";
 import { tableOf, validWords } from "./panels";
+import type { Layers } from "./run_scene";
 import type { Model } from "./surfaces";
 
 const kKept = 253; // of a candidate's kind, see page_data.hpp
@@ -29,9 +32,8 @@ export class CandidateMarks extends ViewMark {
   private burst: Candidate[] = []; // its views, where it is one, in the order of their flight
   private chosen: Candidate | undefined; // as this view
 
-  /** Rays that meet nothing are drawn as far as `missed_m`, or to the end of a camera's range. */
   constructor(private readonly flight: Flight, private readonly model: Model,
-      private readonly data: CandidateData, private readonly missed_m: number) { super(); }
+      private readonly data: CandidateData) { super(); }
 
   /** The decision that chose the last of the first `n` views, perhaps with views before it. */
   protected parts(n: number): three.Object3D[] {
@@ -106,10 +108,10 @@ export class CandidateMarks extends ViewMark {
           .map((k, axis) => 2 * (k + 0.5) / kRays[axis] - 1);
         const way = new three.Vector3(u * Math.tan(camera.fov_x / 2),
           v * Math.tan(camera.fov_y / 2), 1).transformDirection(T);
-        const length = densities?.firstHit(origin, way, camera.range_m, known) ?? camera.range_m;
+        const length = densities.firstHit(origin, way, camera.range_m, known);
         const isHit = length < camera.range_m;
         this.rayEnds.push(origin, origin.clone().addScaledVector(way,
-          isHit ? length : Math.min(length, this.missed_m)));
+          isHit ? length : Math.min(length, this.flight.sight_m)));
         colours.push(...isHit ? [...hit, ...hit] : [...miss, ...miss]);
       }
     }
@@ -120,7 +122,7 @@ export class CandidateMarks extends ViewMark {
   kinds(): { colour: string; text: string; means: string; count: number;
     isRejected?: boolean }[] {
     const rays = "Rays end at the first voxel that held points before; those that meet none are "
-      + `pale, and drawn to ${number(Math.min(this.missed_m, this.flight.range_m), 1)} m`;
+      + `pale, and drawn to ${number(this.flight.sight_m, 1)} m`;
     const counts = [...Map.groupBy(this.now, ({ kind }) => kind)].sort(([a], [b]) => b - a);
     return counts.map(([kind, { length: count }]) =>
       kind === kChosen ? { colour: cssOf("chosen"), text: "chosen view, and its rays",
@@ -159,20 +161,18 @@ export class CandidateMarks extends ViewMark {
     if (this.burst.length > 0) return this.tableOfBurst();
     const best = this.now.filter(({ terms }) => terms)
       .sort((a, b) => b.terms![0] - a.terms![0]).slice(0, kBest);
-    const row = ({ kind, terms }: Candidate, rank: number) => [
-      kind === kChosen ? `${rank + 1}, chosen` : `${rank + 1}`,
-      ...Array.from(terms!, significant)];
     return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
       best.length === 0 ? "" : tableOf("", ["", "Utility", "Information", "Density", "Prediction",
-        "Distance factor"], (column) => column > 0, best.map(row),
-      (rank) => best[rank].kind === kChosen));
+        "Distance factor"], (column) => column > 0, best.map(({ kind, terms }, rank) =>
+        [`${rank + 1}${kind === kChosen ? ", chosen" : ""}`, ...Array.from(terms!, significant)]),
+      (row) => best[row].kind === kChosen));
   }
 
   private tableOfBurst(): HTMLElement {
     const isThis = (row: number) => this.burst[row] === this.chosen;
     return make("div", {}, make("p", { class: "fine" }, ...this.sum()),
-      tableOf("", ["", "Points covered"], (column) => column > 0, this.burst.map(({ terms }, i) =>
-        [isThis(i) ? `${i + 1}, this view` : `${i + 1}`, number(terms![0])]), isThis));
+      tableOf("", ["", "Points covered"], (column) => column > 0, this.burst.map(({ terms }, row) =>
+        [`${row + 1}${isThis(row) ? ", this view" : ""}`, number(terms![0])]), isThis));
   }
 }
 
@@ -183,4 +183,94 @@ function inFront(parts: (three.Points | three.Mesh)[], order: number): three.Obj
     Object.assign(part.material, { depthTest: false, transparent: true }); // after what is opaque
   }
   return parts;
+}
+
+/** In the order in which they are drawn: the ghost of what is unknown comes last. */
+export const kBelievedKinds = ["looked_at", "frontier", "predicted", "unknown"] as const;
+type BelievedKind = typeof kBelievedKinds[number];
+const kLayers: Record<BelievedKind, string> = { unknown: "unknown", predicted: "predicted",
+  frontier: "frontiers", looked_at: "frontiers" };
+const kWidths: Record<BelievedKind, number> = { unknown: 1, predicted: 0.8, frontier: 1.02,
+  looked_at: 1.04 };
+
+const kFaceNumbers = 18; // of three's box, of its two triangles
+/** Which way the box's faces look, as they come. */
+const kWays = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+
+export class BelievedMarks extends ViewMark {
+  private layers: Layers = {};
+  private view = -1; // whose decision it is
+
+  constructor(private readonly data: BeliefData) { super(); }
+
+  has(layer: string) {
+    return kBelievedKinds.some((kind) => this.data[kind] && kLayers[kind] === layer);
+  }
+
+  setLayers(layers: Layers) {
+    this.layers = { ...layers };
+    this.object.visible = layers.unknown || layers.predicted || layers.frontiers;
+  }
+
+  /** Of the decision that chose the last of the first `n` views. */
+  protected parts(n: number): three.Object3D[] {
+    this.view = n - 1;
+    return kBelievedKinds.filter((kind) => this.cells(kind).size > 0)
+      .map((kind) => this.mesh(kind, this.cells(kind)));
+  }
+
+  protected variant() {
+    return kBelievedKinds.map((kind) => Number(this.layers[kLayers[kind]])).join("");
+  }
+
+  /** Voxels of the map, of each kind that is shown. */
+  counts(): Partial<Record<BelievedKind, number>> {
+    return Object.fromEntries(kBelievedKinds
+      .filter((kind) => this.data[kind] && this.layers[kLayers[kind]])
+      .map((kind) => [kind, this.view < 0 ? 0 : this.data[kind]!.counts[this.view]]));
+  }
+
+  /** Edge of the cells that are drawn, where they are larger than the map's voxels; else 0. */
+  coarse_m(): number { return this.data.size_m > this.data.map_m ? this.data.size_m : 0; }
+
+  /** Those that are drawn; none of a kind that is not shown. */
+  cells(kind: BelievedKind): Set<number> {
+    const list = this.data[kind];
+    const cells = new Set<number>();
+    if (!list || !this.layers[kLayers[kind]] || !list.counts[this.view]) return cells;
+    for (let view = list.has_changes ? 0 : this.view; view <= this.view; ++view) {
+      for (let i = list.begins[view], end = 0; i < list.begins[view + 1]; i += 2) {
+        const first = end + list.runs[i];
+        end = first + list.runs[i + 1];
+        for (let cell = first; cell < end; ++cell) if (!cells.delete(cell)) cells.add(cell);
+      }
+    }
+    return cells;
+  }
+
+  /** A cube a cell, or of what is unknown the faces around all of it, through which one looks. */
+  private mesh(kind: BelievedKind, cells: Set<number>): three.Mesh {
+    const { low, cells: [nx, ny, nz], size_m } = this.data;
+    const isGhost = kind === "unknown";
+    const isInside = ([x, y, z]: number[]) => x >= 0 && x < nx && y >= 0 && y < ny
+      && z >= 0 && z < nz && cells.has((z * ny + y) * nx + x);
+    const width_m = kWidths[kind] * size_m;
+    const box = new three.BoxGeometry(width_m, width_m, width_m).toNonIndexed()
+      .getAttribute("position").array;
+    const places: number[] = [];
+    for (const cell of cells) {
+      const at = [cell % nx, Math.floor(cell / nx) % ny, Math.floor(cell / (nx * ny))];
+      kWays.forEach((way, face) => {
+        if (isGhost && isInside(at.map((index, axis) => index + way[axis]))) return;
+        for (let i = kFaceNumbers * face; i < kFaceNumbers * (face + 1); ++i) {
+          places.push(size_m * (low[i % 3] + at[i % 3] + 0.5) + box[i]);
+        }
+      });
+    }
+    const geometry = new three.BufferGeometry()
+      .setAttribute("position", new three.Float32BufferAttribute(places, 3));
+    return new three.Mesh(geometry, new three.MeshLambertMaterial({ flatShading: true,
+      color: colourOf(kind), transparent: isGhost, opacity: isGhost ? 0.25 : 1,
+      depthWrite: !isGhost }));
+  }
 }
