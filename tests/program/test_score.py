@@ -151,7 +151,9 @@ def test_the_curve_goes_from_the_profile_to_the_end_and_never_falls(flown):
     rows = [[float(cell) for cell in row] for row in rows]
     assert len(rows) == found['iterations'] + 1
     for at, share in ((0, 'profile'), (-1, 'final')):
-        assert rows[at][2:] == list(found['coverage'][share].values())
+        assert rows[at][2:5] == list(found['coverage'][share].values())
+    assert rows[-1][5:] == list(found['coverage']['accurate'].values())
+    assert all(accurate <= covered for row in rows for accurate, covered in zip(row[5:], row[2:5]))
     assert rows[-1][0] == found['distance_m']['straight']
     for before, now in zip(rows, rows[1:]):
         assert now[1] > before[1] and all(b <= a for a, b in zip(now, before))

@@ -36,6 +36,7 @@ def test_a_run_reads_back_as_arrays(smoke):
     assert smoke.iterations["cloud_points"][-1] == len(smoke.cloud)
     assert smoke.cloud.dtype == np.float32 and smoke.cloud.shape[1] == 3
     assert smoke.coverage["coverage_0.05"][-1] == pytest.approx(smoke.final_coverage)
+    assert smoke.coverage["accurate_0.05"][-1] == pytest.approx(smoke.accurate_coverage)
     assert (np.diff(smoke.coverage["coverage_0.05"]) >= 0).all()
     assert smoke.trajectory.shape[1] == 8
     again = gnbv.load(smoke.folder)
