@@ -1,6 +1,6 @@
 #include "tools/run/run_inputs.hpp"
 
-#include <map>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/content_cache.hpp"
@@ -19,19 +19,6 @@ RunInput mesh_input(const char* key, const std::string& name, const TriangleMesh
   Sha256 sha;
   add_mesh(sha, mesh);
   return {key, name, sha.hex()};
-}
-
-/// The hash of each key; none where there is no such file.
-std::map<std::string, std::string> read_hashes(const fs::path& path) {
-  std::map<std::string, std::string> hashes;
-  if (!fs::exists(path)) return hashes;
-  try {
-    const Json json = Json::parse(read_file(path));
-    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
-  } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
-  }
-  return hashes;
 }
 
 }  // namespace
@@ -69,12 +56,27 @@ void write_inputs(const fs::path& run, std::span<const RunInput> inputs) {
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+std::vector<RunInput> read_inputs(const fs::path& run) {
+  std::vector<RunInput> inputs;
+  const fs::path path = run / kInputsFile;
+  if (!fs::exists(path)) return inputs;
+  try {
+    const Json json = Json::parse(read_file(path));
+    for (const Json& input : json.at("inputs")) {
+      inputs.push_back({input.at("key"), input.at("name"), input.at("sha256")});
+    }
+  } catch (const Json::exception& error) {
+    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+  }
+  return inputs;
+}
+
 void need_same_inputs(const fs::path& run, std::span<const RunInput> now,
                       const std::string& advice) {
-  const std::map<std::string, std::string> hashes = read_hashes(run / kInputsFile);
+  const std::vector<RunInput> began = read_inputs(run);
   for (const RunInput& input : now) {
-    const auto then = hashes.find(input.key);
-    if (then == hashes.end() || then->second == input.sha256) continue;
+    const auto then = std::ranges::find(began, input.key, &RunInput::key);
+    if (then == began.end() || then->sha256 == input.sha256) continue;
     throw BadInput(fmt::format("{}: {}: {} is not what the run began with: {}",
                                (run / kInputsFile).string(), input.key, input.name, advice));
   }

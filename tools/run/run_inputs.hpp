@@ -26,6 +26,9 @@ std::vector<RunInput> run_inputs(const Scenario& scenario, const World& world);
 
 void write_inputs(const std::filesystem::path& run, std::span<const RunInput> inputs);
 
+/// Of inputs.json; nothing where there is none. Throws BadInput naming one that is damaged.
+std::vector<RunInput> read_inputs(const std::filesystem::path& run);
+
 /// Throws BadInput naming file, key and `advice` when one of those given is another than the run
 /// began with. What its inputs.json does not name, as that of an earlier version, is not asked.
 void need_same_inputs(const std::filesystem::path& run, std::span<const RunInput> now,
