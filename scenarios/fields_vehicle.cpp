@@ -113,14 +113,28 @@ void fields(const Keys& key, GnssOutage& c) {
   key("duration_s", c.duration_s, positive(1e6), "How long no satellite is received.");
 }
 
+void fields(const Keys& key, RtkParameters& c) {
+  constexpr Range kSigma_m = {0, 100};
+  key("horizontal_m", c.horizontal_m, kSigma_m, "Standard deviation of x and of y while fixed.");
+  key("vertical_m", c.vertical_m, kSigma_m, "The same of z.");
+  key.angle("heading_deg", c.heading_rad, {0, 90}, "The same of the heading, from two antennas.");
+  key("correlation_s", c.correlation_s, {0.1, 1e6}, "How long these errors last.");
+  key("float_m", c.float_m, kSigma_m, "What each axis errs more by in a long float solution.");
+  key("fixed_mean_s", c.fixed_mean_s, {0.1, 1e9}, "Mean time until the fix is lost.");
+  key("float_mean_s", c.float_mean_s, {0.1, 1e6}, "Mean time until it is back.");
+}
+
 void fields(const Keys& key, EstimateConfig& c) {
   using enum EstimateModel;
-  key("model", c.model, {{none, "none"}, {mocap, "mocap"}, {gnss, "gnss"}, {vio, "vio"}},
-      "none: the truth; else with the errors of motion capture, satellites or vision.");
-  key.list("outages", c.outages, {0, 1000}, "gnss: times without satellites.");
+  key("model", c.model,
+      {{none, "none"}, {mocap, "mocap"}, {gnss, "gnss"}, {rtk, "rtk"}, {vio, "vio"}},
+      "none: the truth; else with the errors of motion capture, satellites (rtk: by phase) or "
+      "vision.");
+  key.list("outages", c.outages, {0, 1000}, "gnss, rtk: times without satellites.");
   key.only_if(!c.outages.empty(), ".outages")(
       "outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, {0, 100},
-      "gnss: random walk of each axis without satellites, by this in 1 s, by twice this in 4 s.");
+      "Random walk of each axis without satellites, by this in 1 s, by twice this in 4 s.");
+  key.only_if(c.model == rtk, ".model").section("rtk", c.rtk, "rtk: how good the fixes are.");
 }
 
 void fields(const Keys& key, VehicleConfig& c) {

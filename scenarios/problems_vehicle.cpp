@@ -145,12 +145,13 @@ void check_wind(const Scenario& s, Problems& out) {
 
 void check_estimate(const VehicleConfig& vehicle, Problems& out) {
   const std::string key = "vehicle.estimate.outages";
-  const auto& [model, outages, drift] = vehicle.estimate;
+  const EstimateModel model = vehicle.estimate.model;
+  const std::vector<GnssOutage>& outages = vehicle.estimate.outages;
   require(vehicle.kind != VehicleKind::ideal || model == EstimateModel::none, out,
           {"vehicle.estimate.model", "vehicle.kind"},
           "an ideal vehicle knows where it is: its estimate is `none`");
-  require(outages.empty() || model == EstimateModel::gnss, out, {key, "vehicle.estimate.model"},
-          "only an estimate by satellites, `gnss`, can lose them");
+  require(outages.empty() || is_by_satellites(model), out, {key, "vehicle.estimate.model"},
+          "only an estimate by satellites, `gnss` or `rtk`, can lose them");
   for (std::size_t i = 1; i < outages.size(); ++i) {
     const GnssOutage& before = outages[i - 1];
     require(before.start_s + before.duration_s <= outages[i].start_s, out,

@@ -1,17 +1,16 @@
 #include "bench/compare/baseline.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
@@ -19,9 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSchema = "gnbv-baseline-1";
-constexpr std::string_view kCoverage = "coverage_";
-constexpr std::array<const char*, 3> kBetterNames = {"higher", "lower", "same"};
 constexpr std::array<const char*, 3> kVerdictNames = {"kept", "better", "regressed"};
 
 std::vector<BaselineMetric> gated_metrics(const RunFigures& run) {
@@ -46,120 +42,44 @@ std::vector<BaselineMetric> gated_metrics(const RunFigures& run) {
   amount("iterations", run.iterations, Better::lower);
   amount("entropy_reduction_nat", run.entropy_reduction_nat, Better::higher);
   for (const SizedCoverage& at : run.more) {
-    share(fmt::format("{}{}", kCoverage, size_name(at.size_m)), at.final);
+    share("coverage_" + size_name(at.size_m), at.final);
   }
   return metrics;
 }
 
-auto find_metric(const std::vector<BaselineMetric>& metrics, const std::string& name) {
-  return std::find_if(metrics.begin(), metrics.end(),
-                      [&](const BaselineMetric& metric) { return metric.name == name; });
+/// Of the key; nothing where it is missing.
+template <typename Value>
+Value value_of(const std::map<std::string, Value>& values, const std::string& key) {
+  const auto found = values.find(key);
+  return found == values.end() ? Value{} : found->second;
 }
 
-/// Whether it is coverage at a size that not every run is scored at.
-bool is_sized_coverage(const std::string& name) {
-  if (!name.starts_with(kCoverage)) return false;
-  const double size_m = std::strtod(name.c_str() + kCoverage.size(), nullptr);
-  return size_m > 0.0 && name == fmt::format("{}{}", kCoverage, size_name(size_m));
-}
-
-BaselineSubject subject_of(const RunFigures& run) {
-  const std::string counted = run.area_samples == 0 ? "" : fmt::format(" {}", run.area_samples);
-  return {
-      run.scenario, fs::path(run.structure).filename().string(), run.utility, run.preset, run.seed,
-      run.version,  reference_name(run.area_samples) + counted};
-}
-
-/// One baseline file, for messages.
-class File {
- public:
-  explicit File(const fs::path& path)
-      : path_(path), json_(Json::parse(read_file(path), nullptr, false)) {
-    if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
-    const std::string schema = text({"schema"});
-    if (schema != kSchema) refuse({"schema"}, fmt::format("must be \"{}\"", kSchema));
-  }
-
-  Baseline baseline() const {
-    Baseline baseline{
-        .of = {text({"of", "scenario"}), text({"of", "structure"}), text({"of", "utility"}),
-               text({"of", "preset"}), seed(), text({"of", "version"}), text({"of", "reference"})},
-        .termination = text({"termination"})};
-    for (const BaselineMetric& known : gated_metrics({})) {
-      baseline.metrics.push_back(metric(known.name));
-    }
-    for (const auto& [name, value] : at({"metrics"}).items()) {
-      if (find_metric(baseline.metrics, name) != baseline.metrics.end()) continue;
-      if (!is_sized_coverage(name)) refuse({"metrics", name}, "is no metric");
-      baseline.metrics.push_back(metric(name));
-    }
-    if (json_.contains("result_sha256")) baseline.result_sha256 = text({"result_sha256"});
-    return baseline;
-  }
-
- private:
-  using Keys = std::vector<std::string>;
-
-  const Json& at(const Keys& keys) const {
-    const Json* value = &json_;
-    for (const std::string& key : keys) {
-      if (!value->is_object() || !value->contains(key)) {
-        throw BadInput(fmt::format("{}: {}: is missing", path_.string(), fmt::join(keys, ".")));
-      }
-      value = &value->at(key);
-    }
-    return *value;
-  }
-  std::string text(const Keys& keys) const {
-    if (!at(keys).is_string()) refuse(keys, "is no text");
-    return at(keys).get<std::string>();
-  }
-  std::uint64_t seed() const {
-    const Keys keys = {"of", "seed"};
-    if (!at(keys).is_number_unsigned()) refuse(keys, "is no count");
-    return at(keys).get<std::uint64_t>();
-  }
-  double number(const Keys& keys) const {
-    const Json& value = at(keys);
-    if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(keys, "is no number");
-    return value.get<double>();
-  }
-  BaselineMetric metric(const std::string& name) const {
-    const Keys tolerance = {"metrics", name, "tolerance"}, better = {"metrics", name, "better"};
-    const auto* const found = std::find(kBetterNames.begin(), kBetterNames.end(), text(better));
-    if (found == kBetterNames.end()) {
-      refuse(better, "must be \"higher\", \"lower\" or \"same\"");
-    }
-    if (number(tolerance) < 0.0) refuse(tolerance, "is below 0");
-    return {name, number({"metrics", name, "value"}), number(tolerance),
-            static_cast<Better>(found - kBetterNames.begin())};
-  }
-  [[noreturn]] void refuse(const Keys& keys, const std::string& what) const {
-    throw BadInput(
-        fmt::format("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), at(keys).dump(), what));
-  }
-
-  fs::path path_;
-  Json json_;
-};
-
-void need_same(const BaselineSubject& baseline, const BaselineSubject& run, bool needs_version,
-               const fs::path& path) {
+void need_same(const BaselineSubject& was, const BaselineSubject& is, const fs::path& path) {
   std::string differences;
-  const auto compare = [&](const char* what, const auto& of_baseline, const auto& of_run) {
-    if (of_baseline == of_run) return;
-    differences += fmt::format("{} {} {}, the run's is {}", differences.empty() ? "" : ";", what,
-                               of_baseline, of_run);
+  const auto add = [&](const std::string& key, const std::string& then, const std::string& now) {
+    differences += fmt::format("\n  {}: {} -> {}", key, then.empty() ? "nothing" : then,
+                               now.empty() ? "nothing" : now);
   };
-  compare("scenario", baseline.scenario, run.scenario);
-  compare("structure", baseline.structure, run.structure);
-  compare("utility", baseline.utility, run.utility);
-  compare("preset", baseline.preset, run.preset);
-  compare("seed", baseline.seed, run.seed);
-  compare("reference", baseline.reference, run.reference);
-  if (needs_version) compare("version", baseline.version, run.version);
+  if (was.reference != is.reference) add("reference", was.reference, is.reference);
+  BaselineSubject::Values all = was.configuration;
+  for (const auto& [key, value] : is.configuration) all.emplace(key, value_of(is.defaults, key));
+  for (const auto& [key, then] : all) {
+    const std::string now = value_of(is.configuration, key);
+    if (then != now) add(key, then, now);
+  }
+  const auto told = [](const BaselineSubject::Content& file) {
+    return file.sha256.empty() ? "" : fmt::format("{} {}", file.name, file.sha256);
+  };
+  auto files = was.files;
+  files.insert(is.files.begin(), is.files.end());
+  for (const auto& [key, file] : files) {
+    const auto then = value_of(was.files, key), now = value_of(is.files, key);
+    if (then.sha256 != now.sha256) add(key, told(then), told(now));
+  }
   if (differences.empty()) return;
-  throw BadInput(fmt::format("{}: is of something else:{}", path.string(), differences));
+  throw BadInput(
+      fmt::format("{}: is of something else than the run; to gate that from now on, {}:{}",
+                  path.string(), how_to_renew(path), differences));
 }
 
 GateVerdict judge(const BaselineMetric& metric, double now) {
@@ -174,7 +94,7 @@ std::vector<MetricChange> changes_of(const std::vector<BaselineMetric>& baseline
   const std::vector<BaselineMetric> all = gated_metrics(run);
   std::vector<MetricChange> changes;
   for (const BaselineMetric& metric : baseline) {
-    const auto now = find_metric(all, metric.name);
+    const auto now = std::ranges::find(all, metric.name, &BaselineMetric::name);
     if (now == all.end()) {
       throw BadInput(
           fmt::format("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
@@ -187,42 +107,27 @@ std::vector<MetricChange> changes_of(const std::vector<BaselineMetric>& baseline
 
 }  // namespace
 
-Baseline read_baseline(const fs::path& path) { return File(path).baseline(); }
-
-std::string to_json(const Baseline& baseline) {
-  Json metrics;
-  for (const BaselineMetric& metric : baseline.metrics) {
-    metrics[metric.name] = {{"value", metric.value},
-                            {"tolerance", metric.tolerance},
-                            {"better", kBetterNames[static_cast<std::size_t>(metric.better)]}};
-  }
-  const BaselineSubject& of = baseline.of;
-  Json json = {{"schema", kSchema},
-               {"of",
-                {{"scenario", of.scenario},
-                 {"structure", of.structure},
-                 {"utility", of.utility},
-                 {"preset", of.preset},
-                 {"seed", of.seed},
-                 {"version", of.version},
-                 {"reference", of.reference}}},
-               {"termination", baseline.termination},
-               {"metrics", metrics}};
-  if (baseline.result_sha256) json["result_sha256"] = *baseline.result_sha256;
-  return json.dump(2) + "\n";
+std::string how_to_renew(const fs::path& path) {
+  return fmt::format("remove it, and `gnbv check RUN --against {} --update` writes it anew",
+                     shell_word(path.string()));
 }
 
-Baseline make_baseline(const RunFigures& run) {
-  return {.of = subject_of(run), .termination = run.termination, .metrics = gated_metrics(run)};
+Baseline make_baseline(const RunFigures& run, const BaselineSubject& of) {
+  Baseline made{.of = of, .termination = run.termination, .metrics = gated_metrics(run)};
+  const std::string counted = run.area_samples == 0 ? "" : fmt::format(" {}", run.area_samples);
+  made.of.version = run.version;
+  made.of.reference = reference_name(run.area_samples) + counted;
+  return made;
 }
 
-Baseline updated_baseline(const RunFigures& run, const Baseline& before, const fs::path& path) {
-  need_same(before.of, subject_of(run), false, path);
-  Baseline baseline = make_baseline(run);
+Baseline updated_baseline(const RunFigures& run, const BaselineSubject& of, const Baseline& before,
+                          const fs::path& path) {
+  Baseline baseline = make_baseline(run, of);
+  need_same(before.of, baseline.of, path);
   if (before.result_sha256) baseline.result_sha256 = run.result_sha256;
   changes_of(before.metrics, run, path);  // each of them has to be there
   for (BaselineMetric& metric : baseline.metrics) {
-    const auto known = find_metric(before.metrics, metric.name);
+    const auto known = std::ranges::find(before.metrics, metric.name, &BaselineMetric::name);
     if (known == before.metrics.end()) continue;
     metric.tolerance = known->tolerance;
     metric.better = known->better;
@@ -231,8 +136,8 @@ Baseline updated_baseline(const RunFigures& run, const Baseline& before, const f
 }
 
 BaselineCheck check_against(const Baseline& baseline, const fs::path& path, const RunFigures& run,
-                            Versions versions) {
-  need_same(baseline.of, subject_of(run), versions == Versions::have_to_agree, path);
+                            const BaselineSubject& of) {
+  need_same(baseline.of, make_baseline(run, of).of, path);
   return {.metrics = changes_of(baseline.metrics, run, path),
           .termination = run.termination,
           .baseline_termination = baseline.termination,

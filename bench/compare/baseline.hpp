@@ -1,8 +1,8 @@
 // The regression gate: what a mission has to reach again, within stated tolerances.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,13 +24,17 @@ struct BaselineMetric {
 
 /// What a baseline is of. Figures of anything else are not comparable.
 struct BaselineSubject {
-  std::string scenario;
-  std::string structure;  // built-in name, or name of the mesh file without its folders
-  std::string utility;
-  std::string preset;
-  std::uint64_t seed = 0;
-  std::string version;    // of the program
-  std::string reference;  // "outside", "area_samples 150000": what coverage counts
+  struct Content {
+    std::string name;
+    std::string sha256;
+  };
+  using Values = std::map<std::string, std::string>;
+
+  Values configuration = {};                  // each value that the mission depends on, by its key
+  std::map<std::string, Content> files = {};  // meshes, a saved profile; by key, too
+  Values defaults = {};      // not written: what a key was before its version, for older baselines
+  std::string version = {};  // of the program; may differ
+  std::string reference = {};  // "outside", "area_samples 150000": what coverage counts
 };
 
 struct Baseline {
@@ -46,17 +50,20 @@ struct Baseline {
 Baseline read_baseline(const std::filesystem::path& path);
 std::string to_json(const Baseline& baseline);
 
+/// What to do about a baseline file that is not of use any more.
+std::string how_to_renew(const std::filesystem::path& path);
+
 /// Of a run: coverage_0.05, coverage_0.10, coverage_0.50, precision, recall and
 /// f (at 0.05 m), coverage at each further size that the run was scored at (coverage_0.02),
 /// chamfer_m, density (points in a voxel that holds any), straight_m, flight_time_s, iterations,
 /// entropy_reduction_nat. Tolerances are 0.02 for shares, 0.001 m for Chamfer, a tenth of the value
 /// for all other metrics.
-Baseline make_baseline(const RunFigures& run);
+/// `of` without version and reference, which the figures name.
+Baseline make_baseline(const RunFigures& run, const BaselineSubject& of);
 
-/// The same with the tolerances of `before`, its `better`, and what it asks of the hash. Throws
-/// BadInput naming `path`, where `before` stands, and every difference when the run is of something
-/// else; of another version it may be.
-Baseline updated_baseline(const RunFigures& run, const Baseline& before,
+/// The same with the tolerances of `before`, its `better`, and what it asks of the hash. Throws as
+/// check_against() does.
+Baseline updated_baseline(const RunFigures& run, const BaselineSubject& of, const Baseline& before,
                           const std::filesystem::path& path);
 
 enum class GateVerdict { kept, better, regressed };
@@ -75,11 +82,10 @@ struct BaselineCheck {
   bool is_hash_wrong = false;
 };
 
-/// Throws BadInput naming `path` and every difference when the run is of something else, or of
-/// another version where that may not be.
-enum class Versions { have_to_agree, may_differ };
+/// Throws BadInput naming `path` and every difference ("planner.x: 3 -> 4") when the run is of
+/// something else.
 BaselineCheck check_against(const Baseline& baseline, const std::filesystem::path& path,
-                            const RunFigures& run, Versions versions = Versions::have_to_agree);
+                            const RunFigures& run, const BaselineSubject& of);
 
 /// What got worse, by name: termination, result_sha256, metrics.
 std::vector<std::string> regressed(const BaselineCheck& check);

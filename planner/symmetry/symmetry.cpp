@@ -20,6 +20,8 @@ constexpr double kRefineReach_m = 1.5;
 constexpr double kMaxGainOfRefining = 0.3;  // of support, with room: 0.15 on the aircraft
 constexpr double kMinMoved = 0.25;  // below that the plane leaves nearly all points in place
 constexpr std::size_t kMaxInliers = 4000;
+// A wandering estimate lays a profile layer upon layer; an exact airliner has 55 thousand points.
+constexpr std::size_t kMaxProfile = 100000;
 
 /// (radius normal, offset from the centre): a plane where distances are metres. Its negative is the
 /// same plane.
@@ -99,8 +101,10 @@ std::vector<ProfilePoint> oriented(std::span<const Vec3f> profile_world_m,
                                    const OccupancyGrid& grid, int threads) {
   std::vector<ProfilePoint> out;
   for (const Vec3f& p : profile_world_m) {
-    if (p.allFinite()) out.push_back({p, outward(grid, p)});
+    if (p.allFinite()) out.push_back({.p_world_m = p});
   }
+  out = evenly(std::move(out), kMaxProfile);
+  for (ProfilePoint& point : out) point.outward_world = outward(grid, point.p_world_m);
   // a call of the module builds an index of all points, so the pieces are few and large
   const std::size_t piece = out.size() / std::max(threads, 1) + 1;
   parallel_for_chunks(threads, out.size(), piece, [&](std::size_t begin, std::size_t end) {
@@ -116,9 +120,7 @@ std::vector<Vec3f> inliers(std::span<const Vec3f> profile_world_m, const Occupan
   for (const Vec3f& p : profile_world_m) {
     if (grid.state_at(p.cast<double>()) == VoxelState::occupied) all.push_back(p);
   }
-  std::vector<Vec3f> chosen(std::min(all.size(), kMaxInliers));
-  for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = all[i * all.size() / chosen.size()];
-  return chosen;
+  return evenly(std::move(all), kMaxInliers);
 }
 
 /// The centroid, and the root mean square distance from it.

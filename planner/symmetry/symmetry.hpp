@@ -91,6 +91,15 @@ Symmetry find_symmetry(const SymmetryConfig& config, std::span<const Vec3f> prof
 /// are marked then.
 std::size_t predict_surface(const Symmetry& symmetry, OccupancyGrid& grid);
 
+/// At most `max` of them, evenly chosen: all, when there are no more.
+template <typename List>
+List evenly(List all, std::size_t max) {
+  if (all.size() <= max) return all;
+  List chosen(max);
+  for (std::size_t i = 0; i < max; ++i) chosen[i] = all[i * all.size() / max];
+  return chosen;
+}
+
 /// A surface point with the direction in which the space before it is free, of any length; zero
 /// where that is not known.
 struct ProfilePoint {

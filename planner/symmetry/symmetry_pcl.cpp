@@ -30,9 +30,10 @@ using Tree = pcl::search::KdTree<pcl::PointNormal>;
 using Feature = pcl::FPFHSignature33;
 using Features = pcl::PointCloud<Feature>;
 
-constexpr int kNeighbours = 50;          // released: of normals and of features
-constexpr float kRefineLeaf_m = 0.2F;    // of the cloud that ICP aligns
-constexpr std::size_t kMatchesEach = 5;  // best matches of a keypoint
+constexpr int kNeighbours = 50;            // released: of normals and of features
+constexpr float kRefineLeaf_m = 0.2F;      // of the cloud that ICP aligns
+constexpr std::size_t kMaxRefine = 20000;  // points of it; 15 thousand of exact airliners
+constexpr std::size_t kMatchesEach = 5;    // best matches of a keypoint
 
 /// The points with normals and curvature. Leaves out points without a normal, such as duplicates.
 Cloud::Ptr with_normals(std::span<const ProfilePoint> profile) {
@@ -104,6 +105,7 @@ Cloud::Ptr thinned(const Cloud::ConstPtr& cloud) {
     point.getNormalVector3fMap() = n.normalized();
   }
   std::erase_if(thin->points, [](const pcl::PointNormal& p) { return !pcl::isNormalFinite(p); });
+  thin->points = evenly(std::move(thin->points), kMaxRefine);
   thin->width = static_cast<std::uint32_t>(thin->points.size());
   return thin;
 }

@@ -28,10 +28,22 @@ Eigen::Vector2d after(const Eigen::Vector2d& z, double t, double n1, double n2) 
 
 constexpr double kMocapPosition_m = 0.001;
 constexpr double kMocapAngle_rad = deg_to_rad(0.1);
-constexpr double kGnssFrequency_rad_s = 0.05;
+constexpr double kFloatFrequency_rad_s = 0.5;
 constexpr double kVioCorrelation_m = 100.0;
 
-Eigen::Vector4d gnss_sigma() { return {0.5, 0.5, 0.5, deg_to_rad(2.0)}; }
+/// x, y, z in metres, heading in radians.
+Eigen::Vector4d sigma_of(const EstimateConfig& config) {
+  if (config.model != EstimateModel::rtk) return {0.5, 0.5, 0.5, deg_to_rad(2.0)};
+  const RtkParameters& rtk = config.rtk;
+  return {rtk.horizontal_m, rtk.horizontal_m, rtk.vertical_m, rtk.heading_rad};
+}
+
+/// What a tick adds to the rate of e'' + 2 w e' + w^2 e = noise of spectral density 4 w^3 sigma^2.
+Eigen::Vector4d kick(const Eigen::Vector4d& e, const Eigen::Vector4d& rate_per_s, double w,
+                     const Eigen::Vector4d& sigma_noise) {
+  const Eigen::Vector4d noise = std::sqrt(4.0 * w * w * w * kTick_s) * sigma_noise;
+  return noise - kTick_s * (2.0 * w * rate_per_s + w * w * e);
+}
 
 Eigen::Vector4d vio_sigma_per_m() {
   const double each_axis = 0.01 / std::sqrt(3.0);
@@ -99,10 +111,11 @@ Vec3 Wind::step(const Vec3& p_world_m, const Vec3& v_world_m_s) {
 StateEstimator::StateEstimator(const EstimateConfig& config, std::uint64_t seed,
                                const VehicleState& start)
     : config_(config), seed_(seed), p_last_world_m_(start.T_world_body.translation()) {
-  if (config_.model == EstimateModel::gnss) {
+  if (is_by_satellites(config_.model)) {
+    if (config_.model == EstimateModel::rtk) frequency_rad_s_ = 2.0 / config_.rtk.correlation_s;
     // position and rate of the stationary process are independent, sigma_rate = frequency * sigma
-    error_ = gnss_sigma().cwiseProduct(normals(4));
-    error_rate_per_s_ = (gnss_sigma() * kGnssFrequency_rad_s).cwiseProduct(normals(8));
+    error_ = sigma_of(config_).cwiseProduct(normals(4));
+    error_rate_per_s_ = (sigma_of(config_) * frequency_rad_s_).cwiseProduct(normals(8));
   }
   if (config_.model == EstimateModel::vio) drift_per_m_ = vio_sigma_per_m().cwiseProduct(normals());
 }
@@ -124,18 +137,28 @@ bool StateEstimator::is_in_outage() const {
 }
 
 void StateEstimator::wander() {
-  // e'' + 2 w e' + w^2 e = noise of spectral density 4 w^3 sigma^2
-  const double w = kGnssFrequency_rad_s;
   const Vec4 noise = normals();
-  const Vec4 kick = std::sqrt(4.0 * w * w * w * kTick_s) * gnss_sigma().cwiseProduct(noise);
-  error_rate_per_s_ += kick - kTick_s * (2.0 * w * error_rate_per_s_ + w * w * error_);
+  error_rate_per_s_ +=
+      kick(error_, error_rate_per_s_, frequency_rad_s_, sigma_of(config_).cwiseProduct(noise));
+  if (config_.model == EstimateModel::rtk) wander_afloat();
   if (is_in_outage()) {
     error_rate_per_s_.head<3>().setZero();
+    float_rate_m_s_.setZero();
     walk_m_ += config_.outage_drift_m_per_sqrt_s * std::sqrt(kTick_s) * noise.head<3>();
   } else {
     walk_m_ *= std::exp(-kTick_s / kOutageFade_s);
   }
   error_ += kTick_s * error_rate_per_s_;
+  float_m_ += kTick_s * float_rate_m_s_;
+}
+
+void StateEstimator::wander_afloat() {
+  const RtkParameters& rtk = config_.rtk;
+  const double mean_s = is_float_ ? rtk.float_mean_s : rtk.fixed_mean_s;
+  const double chance = -std::expm1(-kTick_s / mean_s);
+  if (uniform01({seed_, Stream::pose_noise, tick_, 12}) < chance) is_float_ = !is_float_;
+  const double sigma_m = is_float_ ? rtk.float_m : 0.0;
+  float_rate_m_s_ += kick(float_m_, float_rate_m_s_, kFloatFrequency_rad_s, sigma_m * normals(4));
 }
 
 void StateEstimator::drift(const VehicleState& truth) {
@@ -164,13 +187,13 @@ VehicleState StateEstimator::step(const VehicleState& truth) {
   ++tick_;  // the constructor has used the numbers of tick 0
   if (config_.model == EstimateModel::none) return truth;
   if (config_.model == EstimateModel::mocap) return with_jitter(truth);
-  if (config_.model == EstimateModel::gnss) wander();
+  if (is_by_satellites(config_.model)) wander();
   if (config_.model == EstimateModel::vio) drift(truth);
   VehicleState estimate = truth;
   estimate.T_world_body.linear() =
       Eigen::AngleAxisd(error_[3], Vec3::UnitZ()) * truth.T_world_body.linear();
-  estimate.T_world_body.translation() += error_.head<3>();
-  estimate.v_world_m_s += error_rate_per_s_.head<3>();
+  estimate.T_world_body.translation() += (error_ + float_m_).head<3>();
+  estimate.v_world_m_s += (error_rate_per_s_ + float_rate_m_s_).head<3>();
   if (config_.outages.empty()) return estimate;
   estimate.T_world_body.translation() += walk_m_;
   if (!is_in_outage()) estimate.v_world_m_s -= walk_m_ / kOutageFade_s;  // it fades

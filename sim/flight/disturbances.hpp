@@ -72,6 +72,8 @@ constexpr double kOutageFade_s = 2.0;
 ///   outage_drift^2 t grows on it (dead reckoning by a velocity whose error is white). It fades
 ///   when the satellites are back, as in a filter that trusts them again (kOutageFade_s, own
 ///   choice). The heading, of a compass, wanders on.
+/// rtk: the same law with RtkParameters. While the fix is lost a process of 0.5 rad/s (own choice)
+///   and sigma float_m grows on it, and decays when the fix is back. Begins with a fix.
 /// vio: position drifts by 1 % of the path flown (root mean square over missions, while the path is
 ///   short against the 100 m after which the drift forgets its direction, own choice), heading by
 ///   0.01 deg a metre; roll and pitch are observable and stay true. Begins without error.
@@ -88,6 +90,7 @@ class StateEstimator {
   Vec4 normals(std::uint64_t first = 0) const;
   bool is_in_outage() const;
   void wander();
+  void wander_afloat();
   void drift(const VehicleState& truth);
   VehicleState with_jitter(const VehicleState& truth) const;
 
@@ -96,9 +99,13 @@ class StateEstimator {
   std::uint64_t tick_ = 0;
   Vec3 p_last_world_m_;
   Vec4 error_ = Vec4::Zero();
-  Vec4 error_rate_per_s_ = Vec4::Zero();  // gnss
-  Vec3 walk_m_ = Vec3::Zero();            // gnss: what outages have left
-  Vec4 drift_per_m_ = Vec4::Zero();       // vio
+  Vec4 error_rate_per_s_ = Vec4::Zero();  // gnss, rtk
+  double frequency_rad_s_ = 0.05;         // of both
+  Vec3 walk_m_ = Vec3::Zero();            // of both: what outages have left
+  bool is_float_ = false;                 // rtk: has lost its fix
+  Vec4 float_m_ = Vec4::Zero();           // rtk: what that has left; no heading
+  Vec4 float_rate_m_s_ = Vec4::Zero();
+  Vec4 drift_per_m_ = Vec4::Zero();  // vio
 };
 
 }  // namespace gnbv

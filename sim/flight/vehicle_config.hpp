@@ -199,7 +199,11 @@ struct PowerParameters {
 };
 
 /// Where the state estimate comes from. StateEstimator has the laws of the errors.
-enum class EstimateModel { none, mocap, gnss, vio };
+enum class EstimateModel { none, mocap, gnss, rtk, vio };
+
+inline bool is_by_satellites(EstimateModel model) {
+  return model == EstimateModel::gnss || model == EstimateModel::rtk;
+}
 
 /// The receiver has no satellites from `start_s` on, in simulated time of the mission.
 struct GnssOutage {
@@ -207,10 +211,25 @@ struct GnssOutage {
   double duration_s = 10.0;
 };
 
+/// Satellite positioning by carrier phase. u-blox states 1 cm + 1 ppm of the way to the base
+/// station (half of all errors) and, of two antennas 1 m apart, 0.4 deg of heading for its ZED-F9P,
+/// at rest under an open sky. Positions here are over twice as wide, for a flight beside a
+/// structure; the rates of lost fixes depend on the place (own choices).
+struct RtkParameters {
+  double horizontal_m = 0.02;  // sigma of each axis while fixed
+  double vertical_m = 0.035;
+  double heading_rad = deg_to_rad(0.4);
+  double correlation_s = 40.0;  // in which these wander
+  double float_m = 0.3;         // sigma of each axis that a long float solution adds
+  double fixed_mean_s = 300.0;  // how long a fix lasts; both times are exponentially distributed
+  double float_mean_s = 10.0;   // and how long until the next
+};
+
 struct EstimateConfig {
   EstimateModel model = EstimateModel::none;
-  std::vector<GnssOutage> outages = {};  // gnss only
+  std::vector<GnssOutage> outages = {};  // gnss and rtk
   double outage_drift_m_per_sqrt_s = 0.3;
+  RtkParameters rtk = {};
 };
 
 struct WindConfig {

@@ -115,7 +115,7 @@ TEST(Problems, OfValuesThatDoNotGoTogether) {
              "{start_s: 20}]}"},
             ""},
            {{"vehicle.estimate={model: vio, outages: [{start_s: 5}]}"},
-            "only an estimate by satellites, `gnss`, can lose them"},
+            "only an estimate by satellites, `gnss` or `rtk`, can lose them"},
            {{"vehicle.estimate={model: gnss, outages: [{start_s: 5, duration_s: 10}, "
              "{start_s: 14}]}"},
             "begins before that at 5 s has ended"}}) {

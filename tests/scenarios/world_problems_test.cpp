@@ -183,12 +183,12 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   const auto expect_all = [&](const auto&... configs) { (expect(configs), ...); };
   expect_all(MeshFileConfig{}, RotorMount{}, AirframeParameters{}, PowerParameters{},
              EstimateConfig{}, VehicleConfig{}, GuidanceConfig{}, WindConfig{}, GnssOutage{},
-             GimbalConfig{}, DepthNoiseConfig{}, CameraConfig{}, LidarConfig{}, OccupancyConfig{},
-             CloudConfig{}, ProfilingConfig{}, AgvsConfig{}, FvsConfig{}, FrontierConfig{},
-             ValidityConfig{}, PathSearchConfig{}, UtilityConfig{}, VolumeWeights{}, ShadowConfig{},
-             UserFunctionConfig{}, TourConfig{}, SymmetryConfig{}, RouteConfig{}, ViewPose{},
-             TerminationConfig{}, PlannerConfig{}, StructureConfig{}, ObstacleConfig{},
-             ScoreConfig{}, BenchmarkConfig{});
+             RtkParameters{}, GimbalConfig{}, DepthNoiseConfig{}, CameraConfig{}, LidarConfig{},
+             OccupancyConfig{}, CloudConfig{}, ProfilingConfig{}, AgvsConfig{}, FvsConfig{},
+             FrontierConfig{}, ValidityConfig{}, PathSearchConfig{}, UtilityConfig{},
+             VolumeWeights{}, ShadowConfig{}, UserFunctionConfig{}, TourConfig{}, SymmetryConfig{},
+             RouteConfig{}, ViewPose{}, TerminationConfig{}, PlannerConfig{}, StructureConfig{},
+             ObstacleConfig{}, ScoreConfig{}, BenchmarkConfig{});
   expect(AutopilotParameters{}, -1);                  // the commander's are PX4 parameters
   expect(StartConfig{}, 1);                           // pose is two keys
   expect(NoFlyConfig{}, 1);                           // a box is two keys

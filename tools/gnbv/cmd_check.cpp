@@ -6,10 +6,13 @@
 #include <memory>
 
 #include "bench/compare/baseline.hpp"
+#include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -33,13 +36,33 @@ std::string regressed_text(const CheckOptions& options, const BaselineCheck& che
                                      options.against.string(), fmt::join(names, " "));
 }
 
+/// What the run was of: not where its files lie, not what they are called, and not the sizes that
+/// it was scored at, which are metrics.
+BaselineSubject subject_of(const fs::path& run) {
+  const auto values_of = [](Scenario scenario) {
+    for (const MeshFileKey& mesh : mesh_files(scenario)) mesh.file->path.clear();
+    scenario.planner.profiling.file.clear();
+    scenario.planner.utility.python.label.clear();
+    scenario.planner.utility.python.file.clear();
+    scenario.score.sizes_m.clear();
+    const auto values = scenario_values(scenario);
+    return BaselineSubject::Values(values.begin(), values.end());
+  };
+  BaselineSubject of{
+      .configuration = values_of(load_flown_scenario((run / kScenarioFile).string())),
+      .defaults = values_of({})};
+  for (const RunInput& input : read_inputs(run)) of.files[input.key] = {input.name, input.sha256};
+  return of;
+}
+
 void update(const CheckOptions& options) {
   const RunFigures run = read_run_figures(options.run);
-  Baseline now = make_baseline(run);
+  const BaselineSubject of = subject_of(options.run);
+  Baseline now = make_baseline(run, of);
   if (fs::exists(options.against)) {
     const Baseline before = read_baseline(options.against);
-    now = updated_baseline(run, before, options.against);
-    const BaselineCheck check = check_against(before, options.against, run, Versions::may_differ);
+    now = updated_baseline(run, of, before, options.against);
+    const BaselineCheck check = check_against(before, options.against, run, of);
     if (const std::string worse = regressed_text(options, check); !worse.empty()) {
       say("{}; from now on that is what is asked for", worse);
     }
@@ -57,8 +80,8 @@ void check(const CheckOptions& options) {
                     shell_word(options.against.string())));
   }
   const Baseline baseline = read_baseline(options.against);
-  const BaselineCheck check =
-      check_against(baseline, options.against, read_run_figures(options.run));
+  const BaselineCheck check = check_against(baseline, options.against,
+                                            read_run_figures(options.run), subject_of(options.run));
   fmt::print("{}", options.json ? check_json(check) : terminal_text(check_table(check)));
   const std::string worse = regressed_text(options, check);
   if (!worse.empty()) throw CommandFailed(worse);

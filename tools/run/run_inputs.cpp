@@ -1,5 +1,6 @@
 #include "tools/run/run_inputs.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/score/content_cache.hpp"
@@ -55,25 +56,27 @@ void write_inputs(const fs::path& run, std::span<const RunInput> inputs) {
                         json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::map<std::string, std::string> input_hashes(const fs::path& run) {
+std::vector<RunInput> read_inputs(const fs::path& run) {
+  std::vector<RunInput> inputs;
   const fs::path path = run / kInputsFile;
-  std::map<std::string, std::string> hashes;
-  if (!fs::exists(path)) return hashes;
+  if (!fs::exists(path)) return inputs;
   try {
     const Json json = Json::parse(read_file(path));
-    for (const Json& input : json.at("inputs")) hashes[input.at("key")] = input.at("sha256");
+    for (const Json& input : json.at("inputs")) {
+      inputs.push_back({input.at("key"), input.at("name"), input.at("sha256")});
+    }
   } catch (const Json::exception& error) {
     throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
   }
-  return hashes;
+  return inputs;
 }
 
 void need_same_inputs(const fs::path& run, std::span<const RunInput> now,
                       const std::string& advice) {
-  const std::map<std::string, std::string> hashes = input_hashes(run);
+  const std::vector<RunInput> began = read_inputs(run);
   for (const RunInput& input : now) {
-    const auto then = hashes.find(input.key);
-    if (then == hashes.end() || then->second == input.sha256) continue;
+    const auto then = std::ranges::find(began, input.key, &RunInput::key);
+    if (then == began.end() || then->sha256 == input.sha256) continue;
     throw BadInput(fmt::format("{}: {}: {} is not what the run began with: {}",
                                (run / kInputsFile).string(), input.key, input.name, advice));
   }

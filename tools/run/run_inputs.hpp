@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,9 +26,8 @@ std::vector<RunInput> run_inputs(const Scenario& scenario, const World& world);
 
 void write_inputs(const std::filesystem::path& run, std::span<const RunInput> inputs);
 
-/// The hash of each key; none of a run that an earlier version flew. Throws BadInput naming the
-/// file.
-std::map<std::string, std::string> input_hashes(const std::filesystem::path& run);
+/// Of inputs.json; nothing where there is none. Throws BadInput naming one that is damaged.
+std::vector<RunInput> read_inputs(const std::filesystem::path& run);
 
 /// Throws BadInput naming file, key and `advice` when one of those given is another than the run
 /// began with. What its inputs.json does not name, as that of an earlier version, is not asked.

@@ -94,9 +94,8 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
     row = mission_row(read_run_figures(folder));
     row.scenario = cell.scenario;
     row.method = cell.method;
-    const auto inputs = input_hashes(folder);
-    if (const auto structure = inputs.find("structure"); structure != inputs.end()) {
-      row.structure_sha256 = structure->second;
+    for (const RunInput& input : read_inputs(folder)) {
+      if (input.key == "structure") row.structure_sha256 = input.sha256;
     }
     row.program = program_of_rows();
     const Scenario flown = load_scenario((folder / kScenarioFile).string(), {});

@@ -74,17 +74,101 @@ TEST(StateEstimate, GnssErrsByHalfAMetreAndTwoDegreesFromTheStartOn) {
   }
 }
 
-TEST(StateEstimate, GnssVelocityErrorIsThePositionErrorsDerivative) {
+/// Fixes of 2 s and floats of 1 s on average, which wander fast.
+EstimateConfig fast_rtk() {
+  return {.model = EstimateModel::rtk,
+          .rtk = {.correlation_s = 2.0, .fixed_mean_s = 2.0, .float_mean_s = 1.0}};
+}
+
+TEST(StateEstimate, VelocityErrorBySatellitesIsThePositionErrorsDerivative) {
   const VehicleState truth = moving(0.0, 0.0);
-  StateEstimator estimator({EstimateModel::gnss}, 5, truth);
-  VehicleState before = estimator.step(truth);
-  for (int i = 0; i < 1000; ++i) {
-    const VehicleState now = estimator.step(truth);
-    const Vec3 rate_m_s =
-        (position_error_m(now, truth) - position_error_m(before, truth)) / kTick_s;
-    ASSERT_LT((rate_m_s - now.v_world_m_s).norm(), 1e-9);  // rounding of a 4 ms difference
-    before = now;
+  for (const EstimateConfig& config : {EstimateConfig{EstimateModel::gnss}, fast_rtk()}) {
+    StateEstimator estimator(config, 5, truth);
+    VehicleState before = estimator.step(truth);
+    for (int i = 0; i < 1000; ++i) {
+      const VehicleState now = estimator.step(truth);
+      const Vec3 rate_m_s =
+          (position_error_m(now, truth) - position_error_m(before, truth)) / kTick_s;
+      ASSERT_LT((rate_m_s - now.v_world_m_s).norm(), 1e-9);  // rounding of a 4 ms difference
+      before = now;
+    }
   }
+}
+
+/// Critically damped of frequency w, the errors t apart correlate by (1 + w t) exp(-w t), w = 2 /
+/// correlation_s.
+TEST(StateEstimate, RtkErrsWhileFixedByItsSigmasWhichLastAsLongAsAsked) {
+  EstimateConfig config = fast_rtk();
+  config.rtk.fixed_mean_s = 1e9;
+  const VehicleState truth = moving(0.0, 0.0);
+  for (const double w_t : {1.0, 2.0}) {
+    const auto ticks = static_cast<int>(w_t * 0.5 * config.rtk.correlation_s / kTick_s);
+    double level = 0.0, up = 0.0, heading = 0.0, both = 0.0;
+    for (std::uint64_t seed = 0; seed < kMissions; ++seed) {
+      StateEstimator estimator(config, seed, truth);
+      const Vec3 first_m = position_error_m(estimator.step(truth), truth);
+      VehicleState estimate;
+      for (int i = 0; i < ticks; ++i) estimate = estimator.step(truth);
+      const Vec3 last_m = position_error_m(estimate, truth);
+      const double yaw_rad = wrap_angle_rad(yaw_of(estimate.T_world_body) - 0.7);
+      level += last_m.head<2>().squaredNorm();
+      up += last_m.z() * last_m.z();
+      heading += yaw_rad * yaw_rad;
+      both += first_m.head<2>().dot(last_m.head<2>());
+    }
+    expect_sigma(level, 2 * kMissions, 0.02);
+    expect_sigma(up, kMissions, 0.035);
+    expect_sigma(heading, kMissions, deg_to_rad(0.4));
+    const double correlation = (1.0 + w_t) * std::exp(-w_t);
+    EXPECT_NEAR(both / (2 * kMissions * 0.02 * 0.02), correlation,
+                4.0 * std::sqrt((1.0 + correlation * correlation) / (2 * kMissions)));
+  }
+}
+
+/// Without errors while fixed what is left is the float's, whose rate goes on by itself while there
+/// is a fix, r' = r - dt (2 w r + w^2 e), and is driven by noise while there is none. Its mean
+/// square is linear in that noise: float_m^2 times the share of time without a fix, each axis.
+TEST(StateEstimate, RtkLosesItsFixAsOftenAndAsLongAsAskedAndThenErrsByDecimetres) {
+  constexpr int kRuns = 200, kFrom = 10 * kTicksPerSecond, kTicks = 40 * kTicksPerSecond;
+  constexpr double kFloat_rad_s = 0.5;
+  EstimateConfig config = fast_rtk();
+  config.rtk.horizontal_m = config.rtk.vertical_m = 0.0;
+  const VehicleState truth = moving(0.0, 0.0);
+  int at_start = 0, afloat = 0, losses = 0;
+  double sum_m2 = 0.0, squares_m4 = 0.0;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    StateEstimator estimator(config, seed, truth);
+    VehicleState before = truth;
+    double run_m2 = 0.0;
+    for (int i = 0, was_afloat = 0; i < kTicks; ++i) {
+      const VehicleState now = estimator.step(truth);
+      const Vec3 v_m_s = before.v_world_m_s - truth.v_world_m_s;
+      const Vec3 alone_m_s =
+          v_m_s - kTick_s * (2.0 * kFloat_rad_s * v_m_s +
+                             kFloat_rad_s * kFloat_rad_s * position_error_m(before, truth));
+      const int is_afloat = (now.v_world_m_s - truth.v_world_m_s - alone_m_s).norm() > 1e-12;
+      if (i == 0) at_start += is_afloat;
+      if (i >= kFrom) {
+        afloat += is_afloat;
+        losses += is_afloat > was_afloat;
+        run_m2 += position_error_m(now, truth).squaredNorm() / 3.0 / (kTicks - kFrom);
+      }
+      was_afloat = is_afloat;
+      before = now;
+    }
+    sum_m2 += run_m2;
+    squares_m4 += run_m2 * run_m2;
+  }
+  EXPECT_LT(at_start, 5);               // begins with a fix, which 1 of 500 lose in the first tick
+  constexpr double kShare = 1.0 / 3.0;  // 1 s of every 3 s
+  constexpr double kTime_s = kRuns * (kTicks - kFrom) * kTick_s;
+  // states 2/3 s apart are independent
+  EXPECT_NEAR(afloat * kTick_s / kTime_s, kShare,
+              4.0 * std::sqrt(2.0 * kShare * (1.0 - kShare) * (2.0 / 3.0) / kTime_s));
+  EXPECT_NEAR(losses, kTime_s / 3.0, 4.0 * std::sqrt(kTime_s / 3.0));
+  const double mean_m2 = sum_m2 / kRuns;
+  EXPECT_NEAR(mean_m2, kShare * 0.3 * 0.3,
+              4.0 * std::sqrt((squares_m4 / kRuns - mean_m2 * mean_m2) / kRuns));
 }
 
 /// Mean square error of one axis after a path of length L under a drift of sigma a metre that
@@ -182,7 +266,7 @@ TEST(StateEstimate, IsKeyedByTheSeed) {
         .eval();
   };
   for (const EstimateModel model :
-       {EstimateModel::mocap, EstimateModel::gnss, EstimateModel::vio}) {
+       {EstimateModel::mocap, EstimateModel::gnss, EstimateModel::rtk, EstimateModel::vio}) {
     EXPECT_EQ(first(model, 1), first(model, 1));
     EXPECT_NE(first(model, 1), first(model, 2));
   }
