@@ -26,14 +26,18 @@ TextTable comparison_table(const PaperTable& paper, std::span<const RunFigures> 
 /// Columns that effort_table() shares with comparison_table(): utility, row.
 constexpr std::size_t kSharedColumns = 2;
 
+/// By kReachShares: runs that were flown for this share alone.
+using RunsByShare = std::array<std::vector<RunFigures>, kReachShares.size()>;
+
 /// What each method spends until its cloud holds most of what a cloud can hold. A row for each of
-/// ours in comparison_table(), named alike: the median metres (from the first view on) to 90, 95,
-/// 98 and 99 % of the ceiling, and how many runs got there. A run that did not counts as one that
-/// needs more than any other; where half of them did not, there is no median. Without a ceiling, or
-/// runs, no rows.
-TextTable effort_table(const PaperTable& paper, std::span<const RunFigures> runs,
+/// ours in comparison_table(), named alike: the median metres or seconds (from the first view on)
+/// to kReachShares of the ceiling, and how many runs got there; of utilities in `by_share`, its
+/// runs. A run that did not counts as one that needs more than any other; where half of them did
+/// not, there is no median. Without a ceiling, or runs, no rows.
+TextTable effort_table(const PaperTable& paper, Effort effort, std::span<const RunFigures> runs,
                        const std::optional<Ceiling>& ceiling,
-                       std::span<const std::string> settings = {});
+                       std::span<const std::string> settings = {},
+                       const RunsByShare& by_share = {});
 
 /// The mission's row as a small aligned table; below it, if the mission's setting is the paper's,
 /// the paper's row for its scenario, utility and structure, where it has one. For a terminal of

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
@@ -113,6 +114,37 @@ Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<Compa
   return sweep;
 }
 
+/// The oracles that count metres or seconds, once for each of kReachShares of the ceiling.
+Sweep reach_sweep(Sweep sweep, const Ceiling& ceiling) {
+  const std::vector<SweepMethod> methods = std::exchange(sweep.methods, {});
+  const auto counted = {planners_that(&PlannerTraits::counts_metres),
+                        planners_that(&PlannerTraits::counts_seconds)};
+  for (const SweepMethod& method : methods) {
+    if (std::none_of(counted.begin(), counted.end(),
+                     [&](const auto& names) { return std::ranges::count(names, method.name); })) {
+      continue;
+    }
+    for (std::size_t i = 0; i < kReachShares.size(); ++i) {
+      SweepMethod& at_share = sweep.methods.emplace_back(method);
+      at_share.name += fmt::format("@{}", kReachNames[i]);
+      at_share.overrides.push_back(
+          {fmt::format("planner.oracle.coverage={}", kReachShares[i] * ceiling.leaf_counted[0])});
+    }
+  }
+  return sweep;
+}
+
+/// The runs of such a sweep, called by their oracles.
+RunsByShare by_share(const BenchRuns& flown) {
+  RunsByShare runs;
+  for (const ComparedRun& run : flown.runs) {
+    const std::size_t at = run.method.find('@');
+    const auto share = std::ranges::find(kReachNames, run.method.substr(at + 1));
+    runs[static_cast<std::size_t>(share - kReachNames.begin())].push_back(run.figures);
+  }
+  return runs;
+}
+
 /// What the table depends on; neither where it was made nor by how many processors.
 std::string command_of(const TableRequest& request, const BenchOptions& options,
                        std::uint64_t first_seed) {
@@ -141,6 +173,17 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
   const std::vector<Cell> cells = cells_of(sweep);
   const Ceiling ceiling = ceiling_of(cells.front().resolved, options);
   BenchRuns flown = fly_cells(cells, options);
+  const auto take_notes = [&](const BenchRuns& some) {
+    for (const auto list : {&BenchRuns::notes, &BenchRuns::failures}) {
+      (flown.*list).insert((flown.*list).end(), (some.*list).begin(), (some.*list).end());
+    }
+  };
+  RunsByShare oracles;
+  if (const Sweep reach = reach_sweep(sweep, ceiling); !reach.methods.empty()) {
+    const BenchRuns reached = fly_cells(cells_of(reach), options);
+    oracles = by_share(reached);
+    take_notes(reached);
+  }
   std::vector<RunFigures> runs;
   std::vector<std::string> settings;
   const auto add = [&](const BenchRuns& some, const std::string& setting) {
@@ -155,12 +198,14 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
   if (!exact.methods.empty()) {
     const BenchRuns again = fly_cells(cells_of(exact), options);
     add(again, "exact sensors");
-    for (const auto list : {&BenchRuns::notes, &BenchRuns::failures}) {
-      (flown.*list).insert((flown.*list).end(), (again.*list).begin(), (again.*list).end());
-    }
+    take_notes(again);
   }
   TextTable text = comparison_table(paper, runs, ceiling, settings);
-  const TextTable effort = effort_table(paper, runs, ceiling, settings);
+  const auto effort = [&](Effort of) {
+    return effort_table(paper, of, runs, ceiling, settings, oracles);
+  };
+  const TextTable metres = effort(Effort::metres);
+  const TextTable seconds = effort(Effort::seconds);
   if (!exact.methods.empty()) {
     text.notes.emplace_back(
         "exact sensors: the same missions without noise of depth, range and pose, flown where "
@@ -179,11 +224,13 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
   text.notes.insert(text.notes.end(), flown.notes.begin(), flown.notes.end());
   text.notes.push_back(
       fmt::format("{}, version {}", command_of(request, options, first.seed), GNBV_VERSION));
-  // people read two narrow tables, machines one wide one
+  // people read narrow tables, machines one wide one
   if (options.format == "csv" || options.format == "json") {
-    return {{with_columns_of(text, effort, kSharedColumns)}, flown.failures};
+    return {
+        {with_columns_of(with_columns_of(text, metres, kSharedColumns), seconds, kSharedColumns)},
+        flown.failures};
   }
-  return {{text, effort}, flown.failures};
+  return {{text, metres, seconds}, flown.failures};
 }
 
 }  // namespace gnbv

@@ -12,9 +12,10 @@ struct TableRequest {
   bool no_oracle = false;
 };
 
-/// Flies every row of the paper's table of the scenario, the user's rows, the tour and the oracles;
-/// what lies above the ceiling once more without noise. Two tables, or one with the columns of both
-/// for programs. Throws BadInput for a scenario that the paper has no table of.
+/// Flies every row of the paper's table of the scenario, the user's rows, the tour and the oracles,
+/// those of few metres and seconds once more for each share of the ceiling; what lies above the
+/// ceiling once more without noise. Three tables, or one with the columns of all for programs.
+/// Throws BadInput for a scenario that the paper has no table of.
 BenchTables table_of_missions(const TableRequest& request, const BenchOptions& options);
 
 }  // namespace gnbv

@@ -302,20 +302,42 @@ TEST(EffortTable, IsTheMedianAndHowManyGotThere) {
       reaching("oracle_metres", 1, 50.0, true), reaching("oracle_metres", 2, 60.0, false),
       reaching("proposed", 1, 100.0, true), reaching("proposed", 2, 120.0, true),
       reaching("proposed", 3, 400.0, false)};
-  const TextTable table = effort_table(paper, runs, all_of_it());
+  const TextTable table = effort_table(paper, Effort::metres, runs, all_of_it());
   EXPECT_EQ(
       all_texts(table),
-      (std::vector<Texts>{{"Proposed", "ours", "120.0 (3 of 3)", "240.0 (2 of 3)", "240.0 (2 of 3)",
-                           "240.0 (2 of 3)"},  // 95 % and more: 200, 240, never
-                          {"Oracle, few metres", "ours", "55.0 (2 of 2)", "- (1 of 2)",
-                           "- (1 of 2)", "- (1 of 2)"}}));
-  EXPECT_EQ(table.rows[0][5].values[0], 240.0);
-  EXPECT_EQ(table.rows[0][5].values[1], 2.0);
-  EXPECT_EQ(table.rows[1][3].values[0], std::nullopt);
-  EXPECT_TRUE(effort_table(paper, runs, {}).rows.empty());
-  EXPECT_TRUE(effort_table(paper, runs, Ceiling{}).rows.empty());
+      (std::vector<Texts>{{"Proposed", "ours", "120.0 (3 of 3)", "120.0 (3 of 3)", "240.0 (2 of 3)",
+                           "240.0 (2 of 3)", "240.0 (2 of 3)"},  // 95 % and more: 200, 240, never
+                          {"Oracle, few metres", "ours", "55.0 (2 of 2)", "55.0 (2 of 2)",
+                           "- (1 of 2)", "- (1 of 2)", "- (1 of 2)"}}));
+  EXPECT_EQ(table.rows[0][6].values[0], 240.0);
+  EXPECT_EQ(table.rows[0][6].values[1], 2.0);
+  EXPECT_EQ(table.rows[1][4].values[0], std::nullopt);
+  EXPECT_TRUE(effort_table(paper, Effort::metres, runs, {}).rows.empty());
+  EXPECT_TRUE(effort_table(paper, Effort::metres, runs, Ceiling{}).rows.empty());
   runs[2].curve = {};
-  EXPECT_EQ(effort_table(paper, runs, all_of_it()).rows.at(0)[2].text, "-");  // nobody knows
+  EXPECT_EQ(effort_table(paper, Effort::metres, runs, all_of_it()).rows.at(0)[2].text,
+            "-");  // nobody knows
+}
+
+TEST(EffortTable, ReadsAShareFromTheRunsThatWereFlownForIt) {
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const std::vector<RunFigures> runs = {reaching("oracle_metres", 1, 50.0, true),
+                                        reaching("proposed", 1, 100.0, true)};
+  RunsByShare by_share;
+  by_share[1] = {reaching("oracle_metres", 1, 20.0, false),
+                 reaching("oracle_metres", 2, 22.0, false)};
+  by_share[4] = {reaching("oracle_metres", 1, 30.0, false)};
+  const auto table = [&](Effort effort) {
+    return all_texts(effort_table(paper, effort, runs, all_of_it(), {}, by_share));
+  };
+  EXPECT_EQ(table(Effort::metres),
+            (std::vector<Texts>{{"Proposed", "ours", "100.0 (1 of 1)", "100.0 (1 of 1)",
+                                 "200.0 (1 of 1)", "200.0 (1 of 1)", "200.0 (1 of 1)"},
+                                {"Oracle, few metres", "ours", "50.0 (1 of 1)", "21.0 (2 of 2)",
+                                 "100.0 (1 of 1)", "100.0 (1 of 1)", "- (0 of 1)"}}));
+  // from the first view on, which comes 1 s after the profile
+  EXPECT_EQ(table(Effort::seconds)[0][2], "0.0 (1 of 1)");
+  EXPECT_EQ(table(Effort::seconds)[0][4], "1.0 (1 of 1)");
 }
 
 TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
@@ -324,9 +346,9 @@ TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
                                         reaching("proposed", 1, 100.0, true),
                                         reaching("proposed", 1, 90.0, true)};
   const Texts settings = {"", "", "leaf_m=0.07"};
-  const TextTable both =
-      with_columns_of(comparison_table(paper, runs, all_of_it(), settings),
-                      effort_table(paper, runs, all_of_it(), settings), kSharedColumns);
+  const TextTable both = with_columns_of(
+      comparison_table(paper, runs, all_of_it(), settings),
+      effort_table(paper, Effort::metres, runs, all_of_it(), settings), kSharedColumns);
   int filled = 0;
   for (const auto& row : both.rows) {
     ASSERT_EQ(row.size(), both.columns.size());
