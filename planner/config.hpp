@@ -31,6 +31,7 @@ struct PlannerConfig {
   ValidityConfig validity;
   UtilityConfig utility;
   RouteConfig routes;
+  OracleConfig oracle;
   TourConfig tour;
   SymmetryConfig symmetry;
   TerminationConfig termination;

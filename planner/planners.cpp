@@ -50,8 +50,8 @@ Made make_given(Parts parts) {
 }
 
 Made make_known(Parts parts) {
-  GNBV_CHECK(parts.sources.route.has_value(), "{} without its route", parts.config.utility.name);
-  return std::make_unique<KnownRoutePlanner>(std::move(*parts.sources.route));
+  GNBV_CHECK(parts.sources.route, "{} without its route", parts.config.utility.name);
+  return std::make_unique<KnownRoutePlanner>(std::move(parts.sources.route));
 }
 
 struct NamedPlanner {
@@ -67,6 +67,7 @@ constexpr std::array kPlanners = {
     NamedPlanner{kRouteName, make_given, {.takes_views = true}},
     NamedPlanner{"oracle_views", make_known, {.knows_structure = true}},
     NamedPlanner{"oracle_metres", make_known, {.knows_structure = true, .counts_metres = true}},
+    NamedPlanner{"oracle_seconds", make_known, {.knows_structure = true, .counts_seconds = true}},
     NamedPlanner{"tour", make_tour, {.makes_tours = true}},
 };
 

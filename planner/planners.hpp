@@ -18,6 +18,7 @@ struct PlannerTraits {
   bool takes_views = false;      // a user gives them: RouteConfig::views, PlannerSources::next_view
   bool knows_structure = false;  // its views are planned on the true one: PlannerSources::route
   bool counts_metres = false;    // of those: the fewest metres, not the fewest views
+  bool counts_seconds = false;   // of those: the least time in flight
   bool makes_tours = false;      // Plan::tour
   bool reads_prediction = false;  // of surface by symmetry (section 2.3)
   bool keeps_shadow = false;      // BeliefConfig::keeps_shadow
@@ -38,10 +39,10 @@ std::vector<std::string_view> planners_that(bool PlannerTraits::*have);
 
 /// What comes to a planner from outside.
 struct PlannerSources {
-  UserScores user_scores = {};                      // of a utility of the user's own
-  std::optional<std::vector<Decision>> route = {};  // of who knows the structure
-  NextView next_view = {};                          // of who takes views
-  OnRefused on_refused = {};                        // likewise
+  UserScores user_scores = {};  // of a utility of the user's own
+  KnownRoute route = {};        // of who knows the structure
+  NextView next_view = {};      // of who takes views
+  OnRefused on_refused = {};    // likewise
 };
 
 /// Requires what traits_of() does, and a route for who knows the structure. Keeps a reference to

@@ -16,6 +16,7 @@ void repeated_by(const Keys& key, RepeatedBy& value) {
 bool scores_views(const Scenario& s) { return traits_of(s.planner).scores_views; }
 bool lays_views(const Scenario& s) { return traits_of(s.planner).lays_views; }
 bool spaces_rows(const Scenario& s) { return traits_of(s.planner).spaces_rows; }
+bool knows_structure(const Scenario& s) { return traits_of(s.planner).knows_structure; }
 bool takes_views(const Scenario& s) { return traits_of(s.planner).takes_views; }
 bool makes_tours(const Scenario& s) { return traits_of(s.planner).makes_tours; }
 bool samples_frontiers(const Scenario& s) { return s.planner.fvs.enabled; }
@@ -280,6 +281,14 @@ void fields(const Keys& key, RouteConfig& c) {
       .list("views", c.views, {0, kMostUserViews}, "route: body poses, in the order of flight.");
 }
 
+void fields(const Keys& key, OracleConfig& c) {
+  key("coverage", c.coverage, {0, 1},
+      "At 0.05 m, that its views are to reach; 0: 99 % of what its cloud can hold, as also when "
+      "that "
+      "is less.");
+  key("search_seed", c.search_seed, "Of what the search for its views leaves to chance.");
+}
+
 void fields(const Keys& key, TourConfig& c) {
   key("detail_m", c.detail_m, {0.005, 1}, "Edge of the voxels that are to hold a point.");
   key("lattice_step_m", c.lattice_step_m, {0, 100},
@@ -357,6 +366,8 @@ void fields(const Keys& key, PlannerConfig& c) {
   key.section("validity", c.validity, "Which views may be flown to.");
   key.section("utility", c.utility, "What a view is worth.");
   key.section("routes", c.routes, "Baselines whose views are laid around the profile.");
+  key.only_if(knows_structure, kUtility)
+      .section("oracle", c.oracle, "What a planner that knows the structure is asked for.");
   key.only_if(makes_tours, kUtility).section("tour", c.tour, "The tour of all that lacks points.");
   key.only_if(would_read_prediction, kUtility)
       .only_if(c.utility.gamma > 0.0 || is_user_utility(c.utility.name), "planner.utility.gamma")

@@ -63,7 +63,8 @@ std::string name_in_table(const PaperTable& paper, const std::string& utility) {
   if (const PaperRow* const row = find_row(paper, utility)) return std::string(row->label);
   if (utility == "tour") return "Tour";
   if (utility == "oracle_views") return "Oracle, few views";
-  return utility == "oracle_metres" ? "Oracle, few metres" : utility;
+  if (utility == "oracle_metres") return "Oracle, few metres";
+  return utility == "oracle_seconds" ? "Oracle, few seconds" : utility;
 }
 
 std::optional<std::string> formulas_note(std::span<const std::string> names) {

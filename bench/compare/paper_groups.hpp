@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/compare/mission_row.hpp"
@@ -19,6 +20,10 @@ struct PaperGroup {
   std::string name;  // of the row: "Proposed, exact sensors"
   std::vector<const MissionRow*> missions = {};
 };
+
+/// The setting of missions that a planner flew for one share of the ceiling alone: "for 0.95".
+/// They stand in that column of effort_table() and nowhere else.
+constexpr std::string_view kForShare = "for ";
 
 /// Those of the paper's methods in its order, then the others in that of their first missions.
 std::vector<PaperGroup> paper_groups(const PaperTable& paper, std::span<const MissionRow> missions);

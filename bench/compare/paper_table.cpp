@@ -247,14 +247,22 @@ std::vector<std::string> notes_of(const TextTable& table, const PaperTable& pape
   return notes;
 }
 
+/// Without those that were flown for one share of the ceiling.
+std::vector<PaperGroup> whole_groups(const PaperTable& paper,
+                                     std::span<const MissionRow> missions) {
+  std::vector<PaperGroup> groups = paper_groups(paper, missions);
+  std::erase_if(groups, [](const PaperGroup& g) { return g.setting.starts_with(kForShare); });
+  return groups;
+}
+
 /// The median, how many got there, and the mean in which the others have spent the budget.
-TableCell effort_cell(const PaperGroup& group, std::string_view name) {
+TableCell effort_cell(const PaperGroup& group, std::string_view name, std::string_view budget) {
   std::vector<double> efforts, restricted;
   for (const MissionRow* const mission : group.missions) {
     const auto effort = mission->find(name);
     if (!effort) return {};  // nobody knows
     efforts.push_back(*effort);
-    restricted.push_back(std::min(*effort, mission->find("budget_metres").value_or(*effort)));
+    restricted.push_back(std::min(*effort, mission->find(budget).value_or(*effort)));
   }
   const auto there = static_cast<double>(
       std::ranges::count_if(efforts, [](double effort) { return std::isfinite(effort); }));
@@ -273,7 +281,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
                   [](const PaperRow& row) { return row.time_min.has_value(); });
   TextTable table{.title = std::string(paper.source),
                   .columns = columns_of(missions, {prints_time ? "" : "time_min"})};
-  const std::vector<PaperGroup> groups = paper_groups(paper, missions);
+  const std::vector<PaperGroup> groups = whole_groups(paper, missions);
   for (const PaperRow& row : paper.rows) {
     for (const PaperGroup& group : groups) {
       if (group.method == row.utility) add_ours(group, table);
@@ -296,28 +304,39 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
   return table;
 }
 
-TextTable effort_table(const PaperTable& paper, std::span<const MissionRow> missions) {
-  const auto shares = std::span(kReachNames).subspan(1);  // 80 % is what every method passes
-  TextTable table{.title = "Metres to reach the ceiling",
+TextTable effort_table(const PaperTable& paper, Effort effort,
+                       std::span<const MissionRow> missions) {
+  const bool is_metres = effort == Effort::metres;
+  const std::string unit(kEffortNames[static_cast<std::size_t>(effort)]);
+  const std::string budget_name = "budget_" + unit;
+  TextTable table{.title = fmt::format("{} to reach the ceiling", is_metres ? "Metres" : "Seconds"),
                   .columns = {{"Utility", "utility"}, {"Row", "row"}}};
-  for (const std::string_view share : shares) {
+  for (const std::string_view share : kReachNames) {
     const std::string percent(share.substr(2));
-    table.columns.push_back({percent + "%", "metres_to_" + percent, ColumnKind::counted});
+    table.columns.push_back(
+        {percent + "%", fmt::format("{}_to_{}", unit, percent), ColumnKind::counted});
   }
-  for (const PaperGroup& group : paper_groups(paper, missions)) {
+  const std::vector<PaperGroup> all = paper_groups(paper, missions);
+  for (const PaperGroup& group : whole_groups(paper, missions)) {
     if (!group.missions[0]->find("ceiling_0.05")) continue;
     Row& row = table.rows.emplace_back(Row{{group.name}, {"ours"}});
-    for (const std::string_view share : shares) {
-      row.push_back(effort_cell(group, fmt::format("metres_to_{}", share)));
+    for (const std::string_view share : kReachNames) {
+      const auto own = std::ranges::find_if(all, [&](const PaperGroup& g) {
+        return g.method == group.method && g.setting == fmt::format("{}{}", kForShare, share);
+      });
+      row.push_back(effort_cell(own == all.end() ? group : *own,
+                                fmt::format("{}_to_{}", unit, share), budget_name));
     }
   }
   if (table.rows.empty()) return table;
-  const auto budget_m = missions[0].find("budget_metres");
+  const auto budget = missions[0].find(budget_name);
   table.notes = {fmt::format(
-      "metres from the first view on until the cloud first covered so much of its ceiling at 0.05 "
-      "m: median, where a mission that did not get there{} counts as farther than all others; how "
-      "many got there; mean, where it counts as the budget",
-      budget_m ? fmt::format(" within the budget of {:g} m", *budget_m) : "")};
+      "{} from the {} on until the cloud first covered so much of its ceiling at 0.05 m: median, "
+      "where a mission that did not get there{} counts as more than all others; how many got "
+      "there; mean, where it counts as the budget; an oracle of few metres or seconds flies for "
+      "each share alone",
+      unit, is_metres ? "first view" : "end of the profile",
+      budget ? fmt::format(" within the budget of {:g} {}", *budget, is_metres ? "m" : "s") : "")};
   return table;
 }
 

@@ -21,12 +21,14 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
 /// Columns that effort_table() shares with comparison_table(): utility, row.
 constexpr std::size_t kSharedColumns = 2;
 
-/// What each method spends until its cloud holds most of what a cloud can hold. A row for each of
-/// ours in comparison_table(), named alike: for 90, 95, 98 and 99 % of the ceiling the median
-/// metres (from the first view on), how many missions got there within the budget, and the mean in
-/// which the others have spent it. Where half of them did not get there, there is no median.
-/// Without a ceiling, or missions, no rows.
-TextTable effort_table(const PaperTable& paper, std::span<const MissionRow> missions);
+/// What each method spends until its cloud holds most of what a cloud can hold: metres from the
+/// first view on, or seconds from the end of the profile on. A row for each of ours in
+/// comparison_table(), named alike: for kReachShares of the ceiling the median, how many missions
+/// got there within the budget, and the mean in which the others have spent it; of missions that
+/// were flown for one share (kForShare) theirs. Where half of them did not get there, there is no
+/// median. Without a ceiling, or missions, no rows.
+TextTable effort_table(const PaperTable& paper, Effort effort,
+                       std::span<const MissionRow> missions);
 
 /// The mission's row as a small aligned table; below it, if the mission's setting is the paper's,
 /// the paper's row for its scenario, method and structure, where it has one. For a terminal of

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "bench/limits/oracle.hpp"
 #include "bench/limits/seen_surface.hpp"
 #include "bench/score/content_cache.hpp"
 #include "bench/score/packed_numbers.hpp"
@@ -79,30 +78,6 @@ std::array<Row, 4> rows_of(const Ceiling& ceiling) {
                        : "kept by the cloud, of the area samples",
             "leaf_" + name, ceiling.leaf_counted},
            {"kept by the cloud, of all surface", "leaf_raw", ceiling.leaf_raw}}};
-}
-
-std::string oracle_text(std::span<const OracleReach> reaches) {
-  std::string text =
-      "known the structure, metres and views planned for that share of the cloud's "
-      "0.05 m voxels alone:\n";
-  for (const OracleReach& reach : reaches) {
-    text += fmt::format("{:>4.0f} %{:>9.1f} m in {} views; greedily {:.1f} m in {}\n",
-                        100.0 * reach.share, reach.length_m, reach.views, reach.greedy_m,
-                        reach.greedy_views);
-  }
-  return text;
-}
-
-nlohmann::ordered_json oracle_json(std::span<const OracleReach> reaches) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const OracleReach& reach : reaches) {
-    out.push_back({{"share", reach.share},
-                   {"views", reach.views},
-                   {"length_m", reach.length_m},
-                   {"greedy_views", reach.greedy_views},
-                   {"greedy_m", reach.greedy_m}});
-  }
-  return out;
 }
 
 }  // namespace
@@ -195,8 +170,7 @@ std::string ceiling_key(const Scenario& scenario, const World& world,
   return sha.hex();
 }
 
-std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling,
-                         std::span<const OracleReach> reaches, double wall_s) {
+std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling, double wall_s) {
   nlohmann::ordered_json out = {{"schema", "gnbv-ceiling-1"},
                                 {"scenario", scenario.name},
                                 {"structure", structure_name(scenario.structure)},
@@ -205,13 +179,11 @@ std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling,
   for (const Row& row : rows_of(ceiling)) {
     out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
   }
-  if (!reaches.empty()) out["oracle"] = oracle_json(reaches);
   out["wall_s"] = wall_s;
   return out.dump(2) + "\n";
 }
 
-std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> reaches,
-                         double wall_s) {
+std::string ceiling_text(const Ceiling& ceiling, double wall_s) {
   std::string text =
       fmt::format("{:<44}{:>9}{:>9}{:>9}\n", "share of the voxels", "0.05 m", "0.10 m", "0.50 m");
   for (const Row& row : rows_of(ceiling)) {
@@ -226,7 +198,7 @@ std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> re
   if (ceiling.area_samples > 0) {
     text += fmt::format("area samples: voxels {}\n", reference_words(ceiling.area_samples));
   }
-  return reaches.empty() ? text : text + oracle_text(reaches);
+  return text;
 }
 
 }  // namespace gnbv

@@ -16,8 +16,6 @@
 
 namespace gnbv {
 
-struct OracleReach;
-
 /// What of the structure the scenario scores, and what coverage counts.
 ReferenceConfig reference_config(const Scenario& scenario);
 
@@ -55,11 +53,8 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario);
 /// their cells in that of the seed.
 std::string ceiling_key(const Scenario& scenario, const World& world, const LegalViewpoints& legal);
 
-/// A ceiling as people and programs read it. `reaches` are what an oracle planned, if it was asked;
-/// it took `wall_s` to find all of it.
-std::string ceiling_text(const Ceiling& ceiling, std::span<const OracleReach> reaches,
-                         double wall_s);
-std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling,
-                         std::span<const OracleReach> reaches, double wall_s);
+/// A ceiling as people and programs read it; it took `wall_s` to find.
+std::string ceiling_text(const Ceiling& ceiling, double wall_s);
+std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling, double wall_s);
 
 }  // namespace gnbv

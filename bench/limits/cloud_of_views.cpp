@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "sensors/capture.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
-namespace {
-
-std::vector<std::uint32_t> indices_of(const VoxelSet& reference,
-                                      std::span<const Vec3f> points_world_m) {
+std::vector<std::uint32_t> found_voxels(const VoxelSet& reference,
+                                        std::span<const Vec3f> points_world_m) {
   std::vector<std::uint32_t> indices;
   auto from = reference.begin();
   for (const std::uint64_t code : covered_voxels(points_world_m, 0)) {
@@ -18,8 +17,6 @@ std::vector<std::uint32_t> indices_of(const VoxelSet& reference,
   }
   return indices;
 }
-
-}  // namespace
 
 std::vector<CameraModel> exact_cameras(const Scenario& scenario) {
   std::vector<CameraModel> cameras;
@@ -51,18 +48,26 @@ std::vector<std::uint32_t> finds_alone(const VoxelSet& reference, std::span<cons
       sums.add(lattice.key_of(p_m), p_m);
     }
   }
-  return indices_of(reference, sums.centroids_m());
+  return found_voxels(reference, sums.centroids_m());
 }
 
-CloudOfViews::CloudOfViews(const Scenario& scenario, const VoxelSet& reference)
+CloudOfViews::CloudOfViews(const Scenario& scenario, const VoxelSet& reference,
+                           std::span<const Vec3f> held_world_m)
     : reference_(reference),
       cloud_(scenario.planner.cloud,
              GridGeometry(scenario.workspace_m, scenario.planner.map.resolution_m)),
-      is_found_(reference.size(), 0) {}
+      is_found_(reference.size(), 0) {
+  GNBV_CHECK(cloud_.restore(held_world_m), "two of the points lie in one leaf");
+  find(held_world_m);
+}
 
 void CloudOfViews::add(std::span<const FrameRays> view) {
   const std::size_t gained = cloud_.add(view);
-  for (const std::uint32_t voxel : indices_of(reference_, points_world_m().last(gained))) {
+  find(cloud_.points_world_m().last(gained));
+}
+
+void CloudOfViews::find(std::span<const Vec3f> points_world_m) {
+  for (const std::uint32_t voxel : found_voxels(reference_, points_world_m)) {
     found_ += is_found_[voxel] == 0 ? 1 : 0;
     is_found_[voxel] = 1;
   }

@@ -24,20 +24,27 @@ void take_view(const RayScene& scene, std::span<const CameraModel> cameras, cons
 std::vector<std::uint32_t> finds_alone(const VoxelSet& reference, std::span<const FrameRays> view,
                                        double leaf_m);
 
+/// Ascending: which voxels of `reference`, by index, hold any of the points.
+std::vector<std::uint32_t> found_voxels(const VoxelSet& reference,
+                                        std::span<const Vec3f> points_world_m);
+
 /// The mission's own cloud (SurfaceCloud, with its leaf filter), and which voxels of `reference` it
 /// covers.
 class CloudOfViews {
  public:
-  /// Keeps a reference to the voxels.
-  CloudOfViews(const Scenario& scenario, const VoxelSet& reference);
+  /// Begins with the points of such a cloud. Keeps a reference to the voxels.
+  CloudOfViews(const Scenario& scenario, const VoxelSet& reference,
+               std::span<const Vec3f> held_world_m = {});
 
   void add(std::span<const FrameRays> view);
 
-  std::span<const Vec3f> points_world_m() const { return cloud_.points_world_m(); }
+  const SurfaceCloud& cloud() const { return cloud_; }
   /// How many voxels of the reference it covers.
   std::size_t found() const { return found_; }
 
  private:
+  void find(std::span<const Vec3f> points_world_m);
+
   const VoxelSet& reference_;
   SurfaceCloud cloud_;
   std::vector<std::uint8_t> is_found_;  // 1 for each voxel of the reference that it covers

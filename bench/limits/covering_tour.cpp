@@ -141,7 +141,7 @@ CoveringTour cheaper_tour(const CoverTask& task, const CoverAim& aim, const Cove
   OpenTour trial = current;
   for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
     heed(task.stop);
-    Rng rng(0, Stream::cover_search, i);
+    Rng rng(task.seed, Stream::cover_search, i);
     trial = current;
     for (const std::uint32_t view :
          views_to_remove(trial.chosen(), task.place, trial.waypoints(), task.row_m, rng)) {

@@ -13,12 +13,13 @@ namespace gnbv {
 
 /// Views at places, and the way between those.
 struct CoverTask {
-  const CoverSets& views;            // what each of them finds
-  std::vector<std::uint32_t> place;  // of each view
-  std::uint32_t start = 0;           // the place where a tour begins
-  std::vector<std::uint32_t> given;  // found before the first view
-  RowOf row_m;                       // asked again and again
-  HeedStop stop = {};                // called now and then; may throw
+  const CoverSets& views;                 // what each of them finds
+  std::vector<std::uint32_t> place;       // of each view
+  std::uint32_t start = 0;                // the place where a tour begins
+  std::vector<std::uint32_t> given = {};  // found before the first view
+  RowOf row_m;                            // asked again and again
+  std::uint64_t seed = 0;                 // of what a search leaves to chance
+  HeedStop stop = {};                     // called now and then; may throw
 };
 
 /// What a tour is to find, and what it costs: metres and metres_per_view for each view.

@@ -1,6 +1,7 @@
 #include "bench/limits/survey_task.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/core/rng.hpp"
 
@@ -24,8 +25,8 @@ std::vector<std::uint32_t> sample_of(std::size_t voxels) {
 }  // namespace
 
 SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways,
-                       int threads)
-    : ways_(ways), threads_(threads), item_(sample_of(voxels)) {
+                       WayCost cost, int threads)
+    : ways_(ways), cost_(std::move(cost)), threads_(threads), item_(sample_of(voxels)) {
   std::vector<std::uint32_t> index(ways.start(), kNoIndex);
   for (const SurveyedView& view : survey.views) {
     if (index[view.position] == kNoIndex) {
@@ -49,18 +50,23 @@ std::vector<std::uint32_t> SurveyTask::sampled(std::span<const std::uint32_t> vo
   return items;
 }
 
-CoverTask SurveyTask::task(std::span<const std::uint32_t> found_at_start) {
+CoverTask SurveyTask::task(std::uint64_t search_seed) {
   return {.views = sets_,
           .place = place_,
           .start = static_cast<std::uint32_t>(lattice_place_.size() - 1),
-          .given = sampled(found_at_start),
-          .row_m = [this](std::uint32_t place) { return row_m(place); }};
+          .row_m = [this](std::uint32_t place) { return row_m(place); },
+          .seed = search_seed};
 }
 
 std::span<const float> SurveyTask::row_m(std::uint32_t place) {
   std::vector<float>& row_m = rows_m_[place];
   if (!row_m.empty()) return row_m;
   row_m = ways_.distances_m(lattice_place_[place], lattice_place_, threads_);
+  for (std::size_t other = 0; cost_ && other < row_m.size(); ++other) {
+    row_m[other] = static_cast<float>(cost_(ways_.p_world_m(lattice_place_[place]),
+                                            ways_.p_world_m(lattice_place_[other]),
+                                            static_cast<double>(row_m[other])));
+  }
   for (std::size_t other = 0; other < rows_m_.size(); ++other) {  // one length both ways
     if (other != place && !rows_m_[other].empty()) row_m[other] = rows_m_[other][place];
   }

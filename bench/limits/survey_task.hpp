@@ -11,27 +11,37 @@
 
 namespace gnbv {
 
+/// Of a way of so many metres between two places, the same both ways round; none: its metres.
+using WayCost =
+    std::function<double(const Vec3& from_world_m, const Vec3& to_world_m, double way_m)>;
+
 /// Places of the task are those that the survey looks from, and after them the start. Lengths
 /// between them are LatticeWays::distances_m(), found when a search asks first: it stops at few of
-/// the places. Of many voxels an even sample of about 100,000 stands for all: what a tour finds of
-/// them is off by a few hundredths of a percent of what it finds of all. A task refers to this.
+/// the places. Where ways have another cost, the task's metres are that. Of many voxels an even
+/// sample of about 100,000 stands for all: what a tour finds of them is off by a few hundredths of
+/// a percent of what it finds of all. A task refers to this.
 class SurveyTask {
  public:
   /// Keeps a reference to the ways. `voxels`: how many there are to find.
-  SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways, int threads);
+  SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways, WayCost cost,
+             int threads);
   SurveyTask(const SurveyTask&) = delete;
   SurveyTask& operator=(const SurveyTask&) = delete;
 
-  CoverTask task(std::span<const std::uint32_t> found_at_start);
+  /// From the start, without anything that is given.
+  CoverTask task(std::uint64_t search_seed);
+
+  /// The items of the task that stand for some of the voxels.
+  std::vector<std::uint32_t> sampled(std::span<const std::uint32_t> voxels) const;
 
   /// Of a place of the task: that of LatticeWays.
   std::size_t lattice_place(std::uint32_t place) const { return lattice_place_[place]; }
 
  private:
-  std::vector<std::uint32_t> sampled(std::span<const std::uint32_t> voxels) const;
   std::span<const float> row_m(std::uint32_t place);
 
   const LatticeWays& ways_;
+  WayCost cost_;
   int threads_;
   std::vector<std::uint32_t> item_;                // of each voxel; kNone: not in the sample
   std::vector<std::vector<std::uint32_t>> finds_;  // items of each view

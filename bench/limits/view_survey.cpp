@@ -106,8 +106,8 @@ ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
     });
     for (std::size_t i = 0; i < count; ++i) cloud.add(rays[i]);
   }
-  survey.leaf_raw = coverage_at_all_sizes(reference.raw, cloud.points_world_m());
-  survey.leaf_counted = coverage_at_all_sizes(reference.counted, cloud.points_world_m());
+  survey.leaf_raw = coverage_at_all_sizes(reference.raw, cloud.cloud().points_world_m());
+  survey.leaf_counted = coverage_at_all_sizes(reference.counted, cloud.cloud().points_world_m());
   return survey;
 }
 

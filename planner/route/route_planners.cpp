@@ -214,10 +214,23 @@ Plan RoutePlanner::replay(std::span<const Decision> recorded, const Belief& beli
   return plan;
 }
 
-Plan KnownRoutePlanner::next(const Belief&, const History& history, const ViewPose&, Scratch&) {
-  const std::size_t next = history.decisions.size() - 1;  // decision 0 is the start
+Plan KnownRoutePlanner::next(const Belief& belief, const History&, const ViewPose&,
+                             Scratch& scratch) {
   Plan plan{.end = Termination::route_flown};
-  if (next < route_.size()) plan.views = {route_[next]};
+  if (ahead_.empty()) {
+    ahead_ = route_(belief.cloud, [&scratch] { scratch.heed_stop(); });
+    std::reverse(ahead_.begin(), ahead_.end());
+  }
+  if (ahead_.empty()) return plan;
+  plan.views = {std::move(ahead_.back())};
+  ahead_.pop_back();
+  return plan;
+}
+
+Plan KnownRoutePlanner::replay(std::span<const Decision> recorded, const Belief& belief,
+                               const History& history, const ViewPose& current, Scratch& scratch) {
+  const Plan plan = next(belief, history, current, scratch);
+  need_as_recorded(plan, recorded, history.decisions.size());
   return plan;
 }
 

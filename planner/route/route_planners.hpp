@@ -19,6 +19,11 @@ struct RouteConfig {
   std::vector<ViewPose> views = {};  // route: body poses, in the order in which they are flown
 };
 
+struct OracleConfig {
+  double coverage = 0.0;  // that its views are to reach, of the finest voxels; 0: nearly all
+  std::uint64_t search_seed = 0;  // of what its search leaves to chance
+};
+
 // Baselines that lay all their views at once around what the map of the profile holds, and ask no
 // utility: what a planner that decides view by view has to beat. Views in the order in which they
 // are flown from `start`; none where nothing is occupied. A gimbal looks at what the view does.
@@ -78,17 +83,26 @@ class RoutePlanner final : public Planner {
   const PlannerModel& model_;
 };
 
-/// Flies decisions that somebody made who knows the structure, and checks none of them.
+/// The next views of who knows the structure, from where the last of them was taken; none: the
+/// cloud holds enough.
+using KnownRoute =
+    std::function<std::vector<Decision>(const SurfaceCloud& cloud, const HeedStop& stop)>;
+
+/// Flies decisions that somebody makes who knows the structure, and checks none of them. Asks for
+/// more when all are flown. A mission that is flown again decides anew.
 class KnownRoutePlanner final : public Planner {
  public:
-  explicit KnownRoutePlanner(std::vector<Decision> route) : route_(std::move(route)) {}
+  explicit KnownRoutePlanner(KnownRoute route) : route_(std::move(route)) {}
 
   Plan next(const Belief& belief, const History& history, const ViewPose& current,
             Scratch& scratch) override;
+  Plan replay(std::span<const Decision> recorded, const Belief& belief, const History& history,
+              const ViewPose& current, Scratch& scratch) override;
   EndRules end_rules() const override { return kToTheEnd; }
 
  private:
-  const std::vector<Decision> route_;
+  KnownRoute route_;
+  std::vector<Decision> ahead_;  // the next one last
 };
 
 }  // namespace gnbv

@@ -34,6 +34,7 @@ MISSIONS = {
                          'wind.mean_m_s=[2, 1, 0]', NO_FLY, SCREEN],
     'oracle of views': ['planner.utility.name=oracle_views'],
     'oracle of metres': ['planner.utility.name=oracle_metres'],
+    'oracle of seconds': ['planner.utility.name=oracle_seconds', 'planner.oracle.coverage=0.9'],
     'route': ['planner.utility.name=route', ROUTE],
     'gimbal': [GIMBAL],
     'no-fly box and screen': [NO_FLY, SCREEN],

@@ -2,17 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
 #include <set>
 
-#include "bench/limits/oracle.hpp"
 #include "planner/motion/free_space.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/support/watch.hpp"
-#include "tools/mission/reference.hpp"
-#include "tools/mission/start_pose.hpp"
 #include "tools/run/run_record.hpp"
 #include "tools/run/tour_files.hpp"
 
@@ -149,59 +144,6 @@ TEST(TourMission, WithoutAProfileItLooksForTheStructureFirst) {
             0.9 * points(Flown(tour({"planner.termination.max_iterations=200"}))));
   unknown.emplace_back("planner.tour.explore=false");
   EXPECT_LT(points(Flown(tour(unknown))), 0.1 * points(explored));
-}
-
-// Missions of the oracle: planned on the mesh, flown and scored like the others.
-
-Scenario oracle_smoke(const std::string& utility) {
-  // an entropy that hardly changes would end any other mission
-  return smoke({"planner.utility.name=" + utility, "planner.termination.max_iterations=100",
-                "planner.termination.entropy_change_percent=1"});
-}
-
-const std::vector<Decision>& route_of(const std::string& utility) {
-  static std::map<std::string, std::vector<Decision>> routes;
-  if (!routes.contains(utility)) {
-    setenv("GNBV_CACHE", "", 1);
-    const Scenario scenario = oracle_smoke(utility);
-    const World world = world_of(scenario);
-    const RayScene scene(world);
-    const OracleAim aim =
-        traits_of(scenario.planner).counts_metres ? OracleAim::metres : OracleAim::views;
-    routes[utility] = plan_oracle(scenario, world, scene, reference_of(scenario, world, scene, 2),
-                                  start_pose(scenario, scene), aim, 2);
-  }
-  return routes[utility];
-}
-
-class OracleMission : public testing::TestWithParam<const char*> {};
-
-TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
-  const std::string utility = GetParam();
-  const Flown flight(oracle_smoke(utility), {.sources = {.route = route_of(utility)}});
-  EXPECT_EQ(flight.result.termination, Termination::route_flown);
-  ASSERT_EQ(flight.result.views.size(), route_of(utility).size() + 1);
-  EXPECT_EQ(flight.result.legs_timed_out, 0);
-  for (std::size_t i = 1; i < flight.result.views.size(); ++i) {
-    const Decision& flown = flight.result.views[i].decision;
-    EXPECT_EQ(flown.view.p_world_m, route_of(utility)[i - 1].view.p_world_m);
-    EXPECT_EQ(flown.sampler, Sampler::oracle);
-  }
-  const SurfaceReference reference = make_surface_reference(
-      flight.world, flight.scene, {.floor_z_m = flight.scenario.planner.floor_z_m}, 2);
-  // all of smoke can be seen; what a real vehicle's errors cost beside kOracleShare is little
-  const std::array<double, 3> coverage =
-      coverage_at_all_sizes(reference.counted, flight.result.belief.cloud.points_world_m());
-  EXPECT_GT(coverage[0], kOracleShare - 0.03);
-}
-
-INSTANTIATE_TEST_SUITE_P(BothAims, OracleMission, testing::Values("oracle_views", "oracle_metres"));
-
-TEST(OracleRoute, EmptyEndsAfterTheFirstViewAndNoneIsRefused) {
-  EXPECT_THROW(Flown(oracle_smoke("oracle_views")), BrokenInvariant);
-  const Flown flight(oracle_smoke("oracle_views"), {.sources = {.route = std::vector<Decision>()}});
-  EXPECT_EQ(flight.result.termination, Termination::route_flown);
-  EXPECT_EQ(flight.result.views.size(), 1U);
 }
 
 }  // namespace

@@ -120,13 +120,13 @@ TEST(NoFlyMission, NoPoseAndNoLegLiesInABox) {
   const Box3 box_m(Vec3(2.6, -0.8, 0), Vec3(4.5, 0.8, 3));
   for (const std::string utility : {"proposed", "lawnmower", "oracle_metres"}) {
     const Scenario scenario = smoke({kNoFlyEast, "planner.utility.name=" + utility});
+    const World world = world_of(scenario);
+    const RayScene scene(world);
+    const SurfaceReference reference = reference_of(scenario, world, scene, 2);
     MissionInputs inputs;
     if (traits_of(scenario.planner).knows_structure) {
-      const World world = world_of(scenario);
-      const RayScene scene(world);
       inputs.sources.route =
-          plan_oracle(scenario, world, scene, reference_of(scenario, world, scene, 2),
-                      start_pose(scenario, scene), OracleAim::metres, 2);
+          plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), 2);
     }
     const Flown flown(scenario, inputs);
     EXPECT_NE(flown.result.termination, Termination::collision);

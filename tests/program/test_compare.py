@@ -130,13 +130,15 @@ def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     found = run(f'{table} json').json['rows']
     assert [f'{row["utility"]}: {row["row"]}' for row in found] == [
         'Proposed: ours', 'Proposed: paper', 'Proposed: ours below', 'Tour: ours',
-        'Oracle, few views: ours', 'Oracle, few metres: ours', 'Profile: ours',
+        'Oracle, few views: ours', 'Oracle, few metres: ours', 'Oracle, few seconds: ours',
+        'Profile: ours',
         'Ceiling: physical', 'Ceiling: leaf filter']
     assert found[0]['runs'] == 2 and found[0]['iterations'] == 4
     assert found[0]['time_min'] and found[0]['share_of_ceiling']
     assert found[1]['entropy_reduction'] == 30140
-    assert [found[i]['metres_to_90_runs'] is None for i in range(6)] == [
-        False, True, True, False, False, False]
+    for key in ('metres_to_80_runs', 'seconds_to_99_runs'):
+        assert [found[i][key] is None for i in range(7)] == [
+            False, True, True, False, False, False, False]
     # every other form has the same rows and the command that repeats it
     for form in ('terminal', 'markdown', 'csv', 'latex'):
         run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',

@@ -5,14 +5,12 @@
 #include <memory>
 
 #include "bench/limits/ceiling.hpp"
-#include "bench/limits/oracle.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
-#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/run_inputs.hpp"
@@ -27,7 +25,6 @@ struct CeilingOptions {
   int threads = 0;
   bool quiet = false;
   bool json = false;
-  bool oracle = false;
 };
 
 /// Unless the user asks for another world than that of the run.
@@ -69,16 +66,10 @@ void ceiling(const CeilingOptions& options) {
   const Ceiling found = find_ceiling(scenario, world, scene, start, threads, [&](double share) {
     progress.show(share, "of the surface searched for");
   });
-  std::vector<OracleReach> reaches;
-  if (options.oracle) {
-    progress.show(0.99, "planning on the true structure");
-    reaches = oracle_reaches(scenario, world, scene, reference_of(scenario, world, scene, threads),
-                             start, threads);
-  }
   progress.show(1.0, "done");
   const double wall_s = watch.elapsed_s();
-  fmt::print("{}", options.json ? ceiling_json(scenario, found, reaches, wall_s)
-                                : ceiling_text(found, reaches, wall_s));
+  fmt::print("{}",
+             options.json ? ceiling_json(scenario, found, wall_s) : ceiling_text(found, wall_s));
 }
 
 }  // namespace
@@ -92,8 +83,6 @@ void add_ceiling_command(CLI::App& app) {
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print JSON instead of a table");
-  command->add_flag("--oracle", options->oracle,
-                    "also plan with the structure known: metres to 90, 95, 98 and 99 %; minutes");
   command->callback([options] { ceiling(*options); });
 }
 

@@ -83,23 +83,18 @@ Scenario with_views_of_run(const Scenario& asked, const MissionOptions& options)
 using Progress = std::function<void(double share_done, const std::string& note)>;
 
 /// The views of who knows the structure; nothing for those who have to find out.
-std::optional<std::vector<Decision>> known_route(const Scenario& scenario, const World& world,
-                                                 const RayScene& scene,
-                                                 const SurfaceReference& reference,
-                                                 const Progress& show_progress,
-                                                 const std::function<bool()>& should_stop,
-                                                 int threads) {
-  const PlannerTraits planner = traits_of(scenario.planner);
-  if (!planner.knows_structure) return std::nullopt;
-  show_progress(0.0, "planning on the true structure");
-  const OracleAim aim = planner.counts_metres ? OracleAim::metres : OracleAim::views;
+KnownRoute known_route(const Scenario& scenario, const World& world, const RayScene& scene,
+                       const SurfaceReference& reference, const Progress& show_progress,
+                       const std::function<bool()>& should_stop, int threads) {
+  if (!traits_of(scenario.planner).knows_structure) return {};
+  show_progress(0.0, "looking at the true structure");
   try {
-    return plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), aim, threads,
+    return plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), threads,
                        [&] {
                          if (should_stop()) throw StopRequested();
                        });
-  } catch (const StopRequested&) {
-    return std::vector<Decision>();  // the mission ends before its first view
+  } catch (const StopRequested&) {  // the mission ends before its first view
+    return [](const SurfaceCloud&, const HeedStop&) { return std::vector<Decision>(); };
   }
 }
 

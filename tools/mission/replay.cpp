@@ -23,10 +23,12 @@ MissionInputs inputs_for(const RecordedMission& mission, std::size_t count) {
   MissionInputs inputs;
   for (const ViewRecord& view : mission.views.first(count)) inputs.replay.push_back(view.decision);
   if (traits_of(mission.scenario.planner).knows_structure) {
-    inputs.sources.route.emplace();  // may be empty: a profile needs no views
-    for (std::size_t i = 1; i < mission.views.size(); ++i) {
-      inputs.sources.route->push_back(mission.views[i].decision);
-    }
+    inputs.sources.route = [views = mission.views, next = std::size_t{1}](const SurfaceCloud&,
+                                                                          const HeedStop&) mutable {
+      std::vector<Decision> route;  // all at first; may be empty: a profile needs no views
+      for (; next < views.size(); ++next) route.push_back(views[next].decision);
+      return route;
+    };
   }
   return inputs;
 }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
+#include "bench/compare/paper_groups.hpp"
 #include "bench/compare/paper_table.hpp"
 #include "bench/compare/statistics.hpp"
 #include "planner/planners.hpp"
@@ -93,6 +95,21 @@ Sweep exact_sweep(Sweep sweep, const Scenario& scenario, const std::vector<Missi
   return sweep;
 }
 
+/// The oracles that count metres or seconds, for one share of the ceiling.
+Sweep reach_sweep(Sweep sweep, std::size_t share, double ceiling) {
+  const std::array counted = {planners_that(&PlannerTraits::counts_metres),
+                              planners_that(&PlannerTraits::counts_seconds)};
+  std::erase_if(sweep.methods, [&](const SweepMethod& method) {
+    return std::ranges::none_of(
+        counted, [&](const auto& names) { return std::ranges::count(names, method.name) > 0; });
+  });
+  for (SweepMethod& method : sweep.methods) {
+    method.overrides.push_back(
+        {fmt::format("planner.oracle.coverage={}", kReachShares[share] * ceiling)});
+  }
+  return sweep;
+}
+
 /// What the table depends on; neither where it was made nor by how many processors.
 std::string command_of(const TableRequest& request, const BenchOptions& options,
                        std::uint64_t first_seed) {
@@ -116,7 +133,8 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
 BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
                       const std::string& command) {
   TextTable text = comparison_table(paper, runs.rows);
-  const TextTable effort = effort_table(paper, runs.rows);
+  const TextTable metres = effort_table(paper, Effort::metres, runs.rows);
+  const TextTable seconds = effort_table(paper, Effort::seconds, runs.rows);
   const bool has_exact = std::ranges::count(runs.rows, kExact, &MissionRow::setting) > 0;
   if (has_exact) {
     text.notes.emplace_back(
@@ -136,11 +154,13 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
   if (!is_papers("papers_setting")) text.notes.emplace_back(kOtherSetting);
   text.notes.insert(text.notes.end(), runs.notes.begin(), runs.notes.end());
   if (!command.empty()) text.notes.push_back(command);
-  // people read two narrow tables, machines one wide one
+  // people read narrow tables, machines one wide one
   if (options.format == "csv" || options.format == "json") {
-    return {{with_columns_of(text, effort, kSharedColumns)}, runs.failures};
+    return {
+        {with_columns_of(with_columns_of(text, metres, kSharedColumns), seconds, kSharedColumns)},
+        runs.failures};
   }
-  return {{text, effort}, runs.failures};
+  return {{text, metres, seconds}, runs.failures};
 }
 
 }  // namespace
@@ -156,14 +176,20 @@ BenchTables table_of_missions(const TableRequest& request, const BenchOptions& o
   const Sweep sweep = sweep_of(request, paper, first, options.seed_count);
   const std::vector<Cell> cells = cells_of(sweep);
   BenchRuns runs = rows_of_cells(cells, std::string(paper.rows.back().utility), options);
-  const Sweep exact = exact_sweep(sweep, cells.front().resolved, runs.rows);
-  if (!exact.methods.empty()) {
-    const BenchRuns again = rows_of_cells(cells_of(exact), "", options, kExact);
-    runs.rows.insert(runs.rows.end(), again.rows.begin(), again.rows.end());
+  const auto add = [&](const Sweep& more, const std::string& setting) {
+    if (more.methods.empty()) return;
+    const BenchRuns flown = rows_of_cells(cells_of(more), "", options, setting);
+    runs.rows.insert(runs.rows.end(), flown.rows.begin(), flown.rows.end());
     for (const auto list : {&BenchRuns::notes, &BenchRuns::failures}) {
-      (runs.*list).insert((runs.*list).end(), (again.*list).begin(), (again.*list).end());
+      (runs.*list).insert((runs.*list).end(), (flown.*list).begin(), (flown.*list).end());
     }
+  };
+  const Sweep exact = exact_sweep(sweep, cells.front().resolved, runs.rows);
+  const auto ceiling = runs.rows.empty() ? std::nullopt : runs.rows[0].find("ceiling_0.05");
+  for (std::size_t i = 0; i < kReachShares.size() && ceiling; ++i) {
+    add(reach_sweep(sweep, i, *ceiling), fmt::format("{}{}", kForShare, kReachNames[i]));
   }
+  add(exact, kExact);
   return tables_of(
       paper, runs, options,
       fmt::format("{}, version {}", command_of(request, options, first.seed), GNBV_VERSION));

@@ -13,9 +13,10 @@ struct TableRequest {
   std::vector<std::filesystem::path> from = {};  // files of rows, which are not flown again
 };
 
-/// Flies every row of the paper's table of the scenario, the user's rows, the tour and the oracles;
-/// what lies above the ceiling once more without noise. Or takes the rows that are there. Two
-/// tables, or one with the columns of both
+/// Flies every row of the paper's table of the scenario, the user's rows, the tour and the oracles,
+/// those of few metres and seconds once more for each share of the ceiling; what lies above the
+/// ceiling once more without noise. Or takes the rows that are there. Three tables, or one with the
+/// columns of all
 /// for programs. Throws BadInput for a scenario that the paper has no table of.
 BenchTables table_of_missions(const TableRequest& request, const BenchOptions& options);
 

@@ -319,25 +319,55 @@ TEST(EffortTable, IsTheMedianHowManyGotThereAndTheMeanWithinTheBudget) {
       reaching("oracle_metres", 1, 50.0, true), reaching("oracle_metres", 2, 60.0, false),
       reaching("proposed", 1, 100.0, true), reaching("proposed", 2, 120.0, true),
       reaching("proposed", 3, 400.0, true)};
-  const TextTable unbounded = effort_table(paper, rows_of(runs, all_of_it()));
+  const TextTable unbounded = effort_table(paper, Effort::metres, rows_of(runs, all_of_it()));
   EXPECT_EQ(texts(unbounded.rows[0]),
-            (Texts{"Proposed", "ours", "120.0 (3 of 3), 206.7", "240.0 (3 of 3), 413.3",
-                   "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3"}));
+            (Texts{"Proposed", "ours", "120.0 (3 of 3), 206.7", "120.0 (3 of 3), 206.7",
+                   "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3"}));
   for (RunFigures& run : runs) run.budgets = {0.0, 300.0, 0.0};
-  const TextTable table = effort_table(paper, rows_of(runs, all_of_it()));
+  const TextTable table = effort_table(paper, Effort::metres, rows_of(runs, all_of_it()));
   EXPECT_EQ(all_texts(table),
-            (std::vector<Texts>{{"Proposed", "ours", "120.0 (2 of 3), 173.3",
-                                 "240.0 (2 of 3), 246.7", "240.0 (2 of 3), 246.7",
-                                 "240.0 (2 of 3), 246.7"},  // 95 % and more: 200, 240, never
-                                {"Oracle, few metres", "ours", "55.0 (2 of 2), 55.0",
-                                 "- (1 of 2), 200.0", "- (1 of 2), 200.0", "- (1 of 2), 200.0"}}));
-  EXPECT_EQ(table.rows[0][5].values[0], 240.0);
-  EXPECT_EQ(table.rows[0][5].values[1], 2.0);
-  EXPECT_EQ(table.rows[1][3].values[0], std::nullopt);
-  EXPECT_TRUE(effort_table(paper, rows_of(runs)).rows.empty());
-  EXPECT_TRUE(effort_table(paper, rows_of(runs, Ceiling{})).rows.empty());
+            (std::vector<Texts>{
+                {"Proposed", "ours", "120.0 (2 of 3), 173.3", "120.0 (2 of 3), 173.3",
+                 "240.0 (2 of 3), 246.7", "240.0 (2 of 3), 246.7",
+                 "240.0 (2 of 3), 246.7"},  // 95 % and more: 200, 240, never
+                {"Oracle, few metres", "ours", "55.0 (2 of 2), 55.0", "55.0 (2 of 2), 55.0",
+                 "- (1 of 2), 200.0", "- (1 of 2), 200.0", "- (1 of 2), 200.0"}}));
+  EXPECT_EQ(table.rows[0][6].values[0], 240.0);
+  EXPECT_EQ(table.rows[0][6].values[1], 2.0);
+  EXPECT_EQ(table.rows[1][4].values[0], std::nullopt);
+  EXPECT_TRUE(effort_table(paper, Effort::metres, rows_of(runs)).rows.empty());
+  EXPECT_TRUE(effort_table(paper, Effort::metres, rows_of(runs, Ceiling{})).rows.empty());
   runs[2].curve = {};
-  EXPECT_EQ(effort_table(paper, rows_of(runs, all_of_it())).rows.at(0)[2].text, "-");
+  EXPECT_EQ(effort_table(paper, Effort::metres, rows_of(runs, all_of_it())).rows.at(0)[2].text,
+            "-");
+}
+
+TEST(EffortTable, ReadsAShareFromTheMissionsThatWereFlownForIt) {
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const std::vector<RunFigures> runs = {
+      reaching("oracle_metres", 1, 50.0, true), reaching("proposed", 1, 100.0, true),
+      reaching("oracle_metres", 1, 20.0, false), reaching("oracle_metres", 2, 22.0, false),
+      reaching("oracle_metres", 1, 30.0, false)};
+  const std::vector<MissionRow> rows =
+      rows_of(runs, all_of_it(), {"", "", "for 0.90", "for 0.90", "for 0.99"});
+  const auto start = [](std::string text) { return text.substr(0, text.find(',')); };
+  const auto table = [&](Effort effort) {
+    auto all = all_texts(effort_table(paper, effort, rows));
+    for (Texts& row : all)
+      std::ranges::transform(row.begin() + 2, row.end(), row.begin() + 2, start);
+    return all;
+  };
+  EXPECT_EQ(table(Effort::metres),
+            (std::vector<Texts>{{"Proposed", "ours", "100.0 (1 of 1)", "100.0 (1 of 1)",
+                                 "200.0 (1 of 1)", "200.0 (1 of 1)", "200.0 (1 of 1)"},
+                                {"Oracle, few metres", "ours", "50.0 (1 of 1)", "21.0 (2 of 2)",
+                                 "100.0 (1 of 1)", "100.0 (1 of 1)", "- (0 of 1)"}}));
+  EXPECT_EQ(table(Effort::seconds)[0][2], "1.0 (1 of 1)");
+  EXPECT_EQ(table(Effort::seconds)[0][4], "2.0 (1 of 1)");
+  const TextTable whole = comparison_table(paper, rows);
+  EXPECT_EQ(std::ranges::count(whole.rows, "Oracle, few metres",
+                               [](const auto& row) { return row[0].text; }),
+            1);
 }
 
 TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
@@ -346,8 +376,8 @@ TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
                                         reaching("proposed", 1, 100.0, true),
                                         reaching("proposed", 1, 90.0, true)};
   const std::vector<MissionRow> rows = rows_of(runs, all_of_it(), {"", "", "leaf_m=0.07"});
-  const TextTable both =
-      with_columns_of(comparison_table(paper, rows), effort_table(paper, rows), kSharedColumns);
+  const TextTable both = with_columns_of(comparison_table(paper, rows),
+                                         effort_table(paper, Effort::metres, rows), kSharedColumns);
   int filled = 0;
   for (const auto& row : both.rows) {
     ASSERT_EQ(row.size(), both.columns.size());

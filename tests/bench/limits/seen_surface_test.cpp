@@ -353,10 +353,10 @@ TEST(Ceiling, IsMeasuredAgainstWhatItsMissionsAre) {
   // of the inner surface, which is asked for, nothing can be had
   EXPECT_LT(ceilings[1].counted[0], ceilings[0].counted[0]);
   EXPECT_NEAR(ceilings[1].raw[0], ceilings[0].raw[0], 1e-3);
-  const std::string json = ceiling_json(scenario, ceilings[1], {}, 0.0);
+  const std::string json = ceiling_json(scenario, ceilings[1], 0.0);
   EXPECT_NE(json.find("\"leaf_area_samples\""), std::string::npos);
   EXPECT_EQ(json.find("outside"), std::string::npos);
-  EXPECT_NE(ceiling_text(ceilings[1], {}, 0.0).find("155,000 points drawn by area"),
+  EXPECT_NE(ceiling_text(ceilings[1], 0.0).find("155,000 points drawn by area"),
             std::string::npos);
 }
 

@@ -1,0 +1,99 @@
+// Missions of oracles: planned on the mesh, flown and scored like the others, and with less effort.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "bench/limits/oracle.hpp"
+#include "sim/core/error.hpp"
+#include "tests/support/flown.hpp"
+#include "tools/mission/reference.hpp"
+#include "tools/mission/start_pose.hpp"
+
+namespace gnbv {
+namespace {
+
+struct ScoredFlight {
+  MissionResult result;
+  MissionScore score;
+
+  /// From the first view on until the cloud covered so much; without end where it never did.
+  double effort_to(double coverage, Effort effort) const {
+    const auto spent = effort_to_reach(score.curve, score.before, coverage);
+    if (!spent) return std::numeric_limits<double>::infinity();
+    const auto views = static_cast<std::size_t>(spent->views);
+    if (effort == Effort::metres || views == 0) return spent->metres;
+    return seconds_of_views(score.curve, views);
+  }
+};
+
+/// Smoke with a planner, to its end: an entropy that hardly changes would end any other mission.
+ScoredFlight fly(const std::string& utility, double coverage = 0.0) {
+  Scenario scenario =
+      smoke({"planner.utility.name=" + utility, "planner.termination.max_iterations=100",
+             "planner.termination.entropy_change_percent=1"});
+  scenario.planner.oracle.coverage = coverage;
+  const World world = world_of(scenario);
+  const RayScene scene(world);
+  const SurfaceReference reference = reference_of(scenario, world, scene, 2);
+  MissionInputs inputs;
+  if (traits_of(scenario.planner).knows_structure) {
+    inputs.sources.route =
+        plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), 2);
+  }
+  MissionResult result = run_mission(scenario, world, scene, inputs, 2);
+  const double voxel_m = scenario.planner.map.resolution_m;
+  MissionScore score = score_cloud(reference, scene, scored_cloud(result), voxel_m, 2);
+  return {std::move(result), std::move(score)};
+}
+
+class OracleMission : public testing::TestWithParam<std::string> {};
+
+TEST_P(OracleMission, FliesItsWholeRouteAndFindsNearlyAll) {
+  const ScoredFlight flight = fly(GetParam());
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  EXPECT_EQ(flight.result.legs_timed_out, 0);
+  for (std::size_t i = 1; i < flight.result.views.size(); ++i) {
+    EXPECT_EQ(flight.result.views[i].decision.sampler, Sampler::oracle);
+  }
+  EXPECT_GT(flight.score.final[0], kOracleShare - 0.01);  // all of smoke can be seen
+}
+
+INSTANTIATE_TEST_SUITE_P(AllAims, OracleMission,
+                         testing::Values("oracle_views", "oracle_metres", "oracle_seconds"));
+
+TEST(OracleRoute, EmptyEndsAfterTheFirstViewAndNoneIsRefused) {
+  EXPECT_THROW(Flown(smoke({"planner.utility.name=oracle_views"})), BrokenInvariant);
+  const Flown flight(smoke({"planner.utility.name=oracle_views"}),
+                     {.sources = {.route = [](const SurfaceCloud&, const HeedStop&) {
+                        return std::vector<Decision>();
+                      }}});
+  EXPECT_EQ(flight.result.termination, Termination::route_flown);
+  EXPECT_EQ(flight.result.views.size(), 1U);
+}
+
+/// Of all that take their frames at stops.
+TEST(OracleMission, NobodyReachesAShareWithLessThanTheOracleOfThisShare) {
+  std::map<std::string, ScoredFlight> flights;
+  for (const std::string_view name : planner_names()) {
+    const std::string utility(name);
+    const PlannerTraits traits = traits_of(smoke({"planner.utility.name=" + utility}).planner);
+    if (!traits.takes_views) flights.try_emplace(utility, fly(utility));
+  }
+  ASSERT_GE(flights.size(), 9U);
+  for (const double share : kReachShares) {
+    for (const auto& [oracle, effort] : {std::pair("oracle_metres", Effort::metres),
+                                         std::pair("oracle_seconds", Effort::seconds)}) {
+      const double least = fly(oracle, share).effort_to(share, effort);
+      EXPECT_LT(least, std::numeric_limits<double>::infinity()) << oracle << " to " << share;
+      for (const auto& [utility, flight] : flights) {
+        const double spent = flight.effort_to(share, effort);
+        EXPECT_GE(spent * (1.0 + kOracleSpread), least) << utility << " to " << share;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
