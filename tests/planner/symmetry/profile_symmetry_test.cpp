@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <filesystem>
+#include <numeric>
 
 #include "assets/catalog.hpp"
 #include "planner/core/belief.hpp"
@@ -11,7 +11,6 @@
 #include "planner/symmetry/symmetry.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/ray_scene.hpp"
-#include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {
@@ -144,27 +143,19 @@ TEST(ProfileSymmetry, SurvivesNoisyRanges) {
   EXPECT_GT(share_on_surface(profile.belief.grid, RayScene(world)), 0.9);
 }
 
-/// What a wandering estimate makes of a profile: the same surface again and again, displaced.
-std::vector<Vec3f> layered(std::span<const Vec3f> points_m, int layers) {
-  std::vector<Vec3f> all;
-  Rng rng(1, Stream::bench, layers);
-  for (int layer = 0; layer < layers; ++layer) {
-    const double x_m = rng.real(-0.5, 0.5), y_m = rng.real(-0.5, 0.5), z_m = rng.real(-0.5, 0.5);
-    for (const Vec3f& p_m : points_m) all.emplace_back(p_m + Vec3(x_m, y_m, z_m).cast<float>());
+/// What keeps the search from growing with a profile that a wandering estimate lays in layers.
+TEST(Evenly, LeavesFewListsAsTheyAreAndOfOthersSoManyAtEqualSteps) {
+  std::vector<std::size_t> list(1000);
+  std::iota(list.begin(), list.end(), 0U);
+  EXPECT_EQ(evenly(list, 1000), list);
+  for (const std::size_t max : {1U, 7U, 250U, 999U}) {
+    const std::vector<std::size_t> chosen = evenly(list, max);
+    ASSERT_EQ(chosen.size(), max);
+    for (std::size_t i = 0; i < max; ++i) {
+      EXPECT_NEAR(static_cast<double>(chosen[i]),
+                  1000.0 * static_cast<double>(i) / static_cast<double>(max), 1.0);
+    }
   }
-  return all;
-}
-
-TEST(ProfileSymmetry, TakesNoLongerOverMoreLayersOfAWanderingProfile) {
-  const SweptProfile profile = aircraft_profile({make_builtin_structure("aircraft")}, 8);
-  const auto cpu_s = [&](int layers) {
-    const std::vector<Vec3f> points_m = layered(profile.belief.cloud.points_world_m(), layers);
-    EXPECT_GT(points_m.size(), 150000U);
-    const std::clock_t begin = std::clock();
-    find_symmetry({}, points_m, profile.belief.grid);
-    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  };
-  EXPECT_LT(cpu_s(16), 1.5 * cpu_s(6));  // without a bound 2.7 times
 }
 
 }  // namespace
