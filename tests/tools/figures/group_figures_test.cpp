@@ -183,24 +183,24 @@ TEST(GroupFigures, ADensityIsTheMeanOfAllSeedsAlsoPastTheEndOfSome) {
   }
 }
 
-ComparedRun compared(const std::string& method, int seed, double coverage, double straight_m) {
-  ComparedRun run{.scenario = "smoke",
-                  .method = method,
-                  .seed = static_cast<std::uint64_t>(seed),
-                  .figures = {}};
-  run.figures.coverage_final = {coverage, coverage, coverage};
-  run.figures.straight_m = straight_m;
-  return run;
+MissionRow compared(const std::string& method, int seed, double coverage, double straight_m) {
+  RunFigures figures;
+  figures.scenario = "smoke";
+  figures.utility = method;
+  figures.seed = static_cast<std::uint64_t>(seed);
+  figures.coverage_final = {coverage, coverage, coverage};
+  figures.straight_m = straight_m;
+  return mission_row(figures);
 }
 
 TEST(ForestFigure, HoldsSharesInPointsAndOthersInPercentOfTheBaseline) {
-  std::vector<ComparedRun> runs;
+  std::vector<MissionRow> runs;
   for (int seed = 1; seed <= 3; ++seed) {
     const double base = 0.5 + 0.01 * seed;
     runs.push_back(compared("a", seed, base, 200.0));
     runs.push_back(compared("b", seed, base + 0.1 + 0.001 * seed, 200.0 + 50.0 + seed));
   }
-  const auto figure = forest_figure(compare(runs, "a", {}), 0);
+  const auto figure = forest_figure(compare(runs, "a"), 0);
   ASSERT_TRUE(figure.has_value());
   EXPECT_EQ(figure->name, "forest-smoke");
   ASSERT_EQ(figure->panels.size(), 2U);
@@ -222,13 +222,13 @@ TEST(ForestFigure, HoldsSharesInPointsAndOthersInPercentOfTheBaseline) {
 
 /// The axis ends half beyond the largest mean, with room for an arrow; data stay what they are.
 TEST(ForestFigure, AWideIntervalDoesNotPressTheOthersTogether) {
-  std::vector<ComparedRun> runs;
+  std::vector<MissionRow> runs;
   for (int seed = 1; seed <= 3; ++seed) {
     runs.push_back(compared("a", seed, 0.5, 200.0));
     runs.push_back(compared("b", seed, 0.5 + 0.001 * seed, 200.0));
     runs.push_back(compared("c", seed, 0.48 + 0.02 * seed, 200.0));
   }
-  const auto figure = forest_figure(compare(runs, "a", {}), 0);
+  const auto figure = forest_figure(compare(runs, "a"), 0);
   ASSERT_TRUE(figure.has_value());
   EXPECT_NEAR(series_of(*figure, "C").high[0], 2.0 + half_width(2.0), 1e-4);
   EXPECT_GT(figure->panels[0].x.high, 3.0);
