@@ -22,7 +22,7 @@ struct PaperGroup {
 };
 
 /// The setting of missions that a planner flew for one share of the ceiling alone: "for 0.95".
-/// They stand in that column of effort_table() and nowhere else.
+/// They stand in effort_table() and nowhere else.
 constexpr std::string_view kForShare = "for ";
 
 /// Those of the paper's methods in its order, then the others in that of their first missions.

@@ -24,9 +24,9 @@ constexpr std::size_t kSharedColumns = 2;
 /// What each method spends until its cloud holds most of what a cloud can hold: metres from the
 /// first view on, or seconds from the end of the profile on. A row for each of ours in
 /// comparison_table(), named alike: for kReachShares of the ceiling the median, how many missions
-/// got there within the budget, and the mean in which the others have spent it; of missions that
-/// were flown for one share (kForShare) theirs. Where half of them did not get there, there is no
-/// median. Without a ceiling, or missions, no rows.
+/// got there within the budget, and the mean in which the others have spent it; of a mission and
+/// those of its method and seed that were flown for one share (kForShare) the least. Where half of
+/// them did not get there, there is no median. Without a ceiling, or missions, no rows.
 TextTable effort_table(const PaperTable& paper, Effort effort,
                        std::span<const MissionRow> missions);
 

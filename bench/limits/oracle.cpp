@@ -11,7 +11,6 @@
 #include "bench/limits/survey_task.hpp"
 #include "planner/planners.hpp"
 #include "sim/core/error.hpp"
-#include "sim/flight/guidance.hpp"
 
 namespace gnbv {
 namespace {
@@ -24,41 +23,11 @@ int iterations_of(const CoveringTour& tour) {
   return static_cast<int>(std::clamp(kPerView * tour.views.size(), kFewest, kMost));
 }
 
+/// Of the greedy choice that a search begins with: a lower one wastes views.
+constexpr double kGreedyPrice = 1.0;
+
 /// How often it begins anew. Few views leave much to chance, and little to do.
 std::uint64_t searches_of(const CoveringTour& tour) { return tour.views.size() < 25 ? 3 : 1; }
-
-double duration_s(const Scenario& scenario, const ViewPose& from, const ViewPose& to) {
-  const GuidanceConfig& guidance = scenario.guidance;
-  return leg_duration_s(from, to, guidance.path_speed_m_s, guidance, scenario.vehicle);
-}
-
-/// Of a view more at a place: an eighth of a turn, the step of the survey's yaws.
-double turn_s(const Scenario& scenario) {
-  return duration_s(scenario, {}, {.yaw_rad = 0.25 * kPi});
-}
-
-/// What a view costs beside the way to its place, in the unit of ways.
-double price_of_view(const Scenario& scenario) {
-  constexpr double kOfFew = 1000.0;  // so that few views come first whatever the metres
-  const PlannerTraits traits = traits_of(scenario.planner);
-  if (traits.counts_seconds) return turn_s(scenario);
-  return traits.counts_metres ? kMetresPerView : kOfFew;
-}
-
-/// What a way costs: its metres, or as many seconds as it takes more than a turn, which its view
-/// pays. Level ways at the same speed both ways round: the mean of the two.
-WayCost way_cost(const Scenario& scenario) {
-  if (!traits_of(scenario.planner).counts_seconds) return {};
-  return
-      [&scenario, turn_s = turn_s(scenario)](const Vec3& from_m, const Vec3& to_m, double way_m) {
-        const double straight_m = (to_m - from_m).norm();
-        if (straight_m == 0.0) return 0.0;
-        const ViewPose from{from_m};
-        const ViewPose to{Vec3(from_m + way_m / straight_m * (to_m - from_m))};
-        const double both_s = duration_s(scenario, from, to) + duration_s(scenario, to, from);
-        return std::max(0.0, 0.5 * both_s - turn_s);
-      };
-}
 
 /// What the oracle knows, and its tours.
 class Oracle {
@@ -125,8 +94,7 @@ class Oracle {
     const double share = wanted() / (survey_.leaf_counted[0] * static_cast<double>(voxels_.size()));
     constexpr double kUsualLoss = 0.99;  // of the cloud of all views beyond that of a tour
     const CoverAim target = {part_of(all, kUsualLoss * share), price};
-    const CoveringTour greedy =
-        greedy_tour(task_, {target.wanted, std::max(price, kGreedyMetresPerView)});
+    const CoveringTour greedy = greedy_tour(task_, {target.wanted, std::max(price, kGreedyPrice)});
     std::optional<Costed> best;
     CoveringTour last = greedy;
     const std::uint64_t searches = searches_of(greedy);

@@ -13,14 +13,9 @@ namespace gnbv {
 /// asked for more than that cloud holds.
 constexpr double kOracleShare = 0.99;
 
-/// What a view costs beside its metres, where these count, and what it does to the greedy choice
-/// that the search begins with: there a low price wastes views.
-constexpr double kMetresPerView = 0.3;
-constexpr double kGreedyMetresPerView = 1.0;
-
 /// How much more than another a search of other chance may need for the same share: measured, on
 /// smoke and on the aircraft.
-constexpr double kOracleSpread = 0.05;
+constexpr double kOracleSpread = 0.1;
 
 /// What `planner.utility.name`, an oracle's, flies from `start`, by a search for `planner.oracle`
 /// alone. Surveys at once (view_survey.hpp) and plans when it is asked: with the mission's own
@@ -28,7 +23,7 @@ constexpr double kOracleSpread = 0.05;
 /// flown, with the ways there, every one of which keeps the collision radius from the structure.
 ///
 /// The cheapest tour that a large-neighbourhood search finds (covering_tour.hpp), begun with the
-/// greedy tour: fewest metres and kMetresPerView, or seconds, or views, after which the cloud
+/// greedy tour: fewest metres, seconds or views (price_of_view()), after which the cloud
 /// (CloudOfViews, in the order of flight) covers what is asked for. Asked again, it adds what the
 /// flight missed; nothing more after some routes that found nothing. Deterministic at any number of
 /// threads. The best we know; no bound.

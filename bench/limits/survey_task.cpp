@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/planners.hpp"
 #include "sim/core/rng.hpp"
+#include "sim/flight/guidance.hpp"
 
 namespace gnbv {
 namespace {
@@ -23,6 +25,33 @@ std::vector<std::uint32_t> sample_of(std::size_t voxels) {
 }
 
 }  // namespace
+
+double duration_s(const Scenario& scenario, const ViewPose& from, const ViewPose& to) {
+  const GuidanceConfig& guidance = scenario.guidance;
+  return leg_duration_s(from, to, guidance.path_speed_m_s, guidance, scenario.vehicle);
+}
+
+double price_of_view(const Scenario& scenario) {
+  constexpr double kOfFew_m = 1000.0;
+  constexpr double kOfFewMetres_m = 0.3;
+  const PlannerTraits traits = traits_of(scenario.planner);
+  if (traits.counts_seconds) return duration_s(scenario, {}, {.yaw_rad = 0.25 * kPi});
+  return traits.counts_metres ? kOfFewMetres_m : kOfFew_m;
+}
+
+// Climbing and descending have speeds of their own: the mean of the two ways round.
+WayCost way_cost(const Scenario& scenario) {
+  if (!traits_of(scenario.planner).counts_seconds) return {};
+  return [&scenario, turn_s = price_of_view(scenario)](const Vec3& from_m, const Vec3& to_m,
+                                                       double way_m) {
+    const double straight_m = (to_m - from_m).norm();
+    if (straight_m == 0.0) return 0.0;
+    const ViewPose from{from_m};
+    const ViewPose to{Vec3(from_m + way_m / straight_m * (to_m - from_m))};
+    const double both_s = duration_s(scenario, from, to) + duration_s(scenario, to, from);
+    return std::max(0.0, 0.5 * both_s - turn_s);
+  };
+}
 
 SurveyTask::SurveyTask(const ViewSurvey& survey, std::size_t voxels, const LatticeWays& ways,
                        WayCost cost, int threads)

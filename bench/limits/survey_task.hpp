@@ -11,9 +11,21 @@
 
 namespace gnbv {
 
+/// Seconds of a leg at path speed, from rest to rest.
+double duration_s(const Scenario& scenario, const ViewPose& from, const ViewPose& to);
+
+/// What a view costs beside the way to its place, for the scenario's oracle and in its unit of
+/// ways: 0.3 m; so many that few views come first; or the seconds of an eighth of a turn, the step
+/// of the survey's yaws.
+double price_of_view(const Scenario& scenario);
+
 /// Of a way of so many metres between two places, the same both ways round; none: its metres.
 using WayCost =
     std::function<double(const Vec3& from_world_m, const Vec3& to_world_m, double way_m)>;
+
+/// For the scenario's oracle: metres, or as many seconds as a way takes more than a view costs.
+/// Keeps a reference to the scenario.
+WayCost way_cost(const Scenario& scenario);
 
 /// Places of the task are those that the survey looks from, and after them the start. Lengths
 /// between them are LatticeWays::distances_m(), found when a search asks first: it stops at few of

@@ -43,7 +43,7 @@ struct MissionScore {
   CloudDensity density = {};  // over voxels of the map's size
   CoverageCurve curve = {};
   BeforeViews before = {};
-  Budgets budgets = {};  // of the scenario
+  Budgets budgets = {};   // of the scenario
   bool is_noisy = false;  // as RunFigures has it, for those who know
   // ceiling of the coverage at 0.05 m (leaf_counted of bench/limits/ceiling.hpp), for those who
   // know

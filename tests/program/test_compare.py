@@ -142,7 +142,7 @@ def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     # every other form has the same rows and the command that repeats it
     for form in ('terminal', 'markdown', 'csv', 'latex'):
         run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',
-            'how many runs got there', 'ours is of smoke, which is not known to be')
+            'how many got there', 'ours is of smoke, which is not known to be')
 
 
 def test_table_flies_again_without_noise_what_lies_above_the_ceiling(run):

@@ -187,8 +187,8 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
              OccupancyConfig{}, CloudConfig{}, ProfilingConfig{}, AgvsConfig{}, FvsConfig{},
              FrontierConfig{}, ValidityConfig{}, PathSearchConfig{}, UtilityConfig{},
              VolumeWeights{}, ShadowConfig{}, UserFunctionConfig{}, TourConfig{}, SymmetryConfig{},
-             RouteConfig{}, ViewPose{}, TerminationConfig{}, PlannerConfig{}, StructureConfig{},
-             ObstacleConfig{}, ScoreConfig{}, BenchmarkConfig{});
+             RouteConfig{}, OracleConfig{}, ViewPose{}, TerminationConfig{}, PlannerConfig{},
+             StructureConfig{}, ObstacleConfig{}, ScoreConfig{}, BenchmarkConfig{});
   expect(AutopilotParameters{}, -1);                  // the commander's are PX4 parameters
   expect(StartConfig{}, 1);                           // pose is two keys
   expect(NoFlyConfig{}, 1);                           // a box is two keys

@@ -45,6 +45,10 @@ BaselineSubject subject_of(const fs::path& run) {
     scenario.planner.utility.python.label.clear();
     scenario.planner.utility.python.file.clear();
     scenario.score.sizes_m.clear();
+    const ScoreConfig usual;  // budgets judge none of a gate's figures
+    scenario.score.budget_views = usual.budget_views;
+    scenario.score.budget_m = usual.budget_m;
+    scenario.score.budget_s = usual.budget_s;
     const auto values = scenario_values(scenario);
     return BaselineSubject::Values(values.begin(), values.end());
   };

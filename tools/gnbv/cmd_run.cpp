@@ -70,10 +70,10 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
   if (options.json) {
     fmt::print("{}", read_file(folder / kSummaryFile));
   } else {
-    fmt::print(
-        "{}\n{}\n",
-        one_row_summary(mission_row(read_run_figures(folder)), has_papers_setting(scenario), stdout_columns()),
-        folder.string());
+    fmt::print("{}\n{}\n",
+               one_row_summary(mission_row(read_run_figures(folder)), has_papers_setting(scenario),
+                               stdout_columns()),
+               folder.string());
   }
 }
 

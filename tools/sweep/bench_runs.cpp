@@ -98,7 +98,7 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
       if (input.key == "structure") row.structure_sha256 = input.sha256;
     }
     row.program = program_of_rows();
-    const Scenario flown = load_scenario((folder / kScenarioFile).string(), {});
+    const Scenario flown = load_flown_scenario((folder / kScenarioFile).string());
     row.figures["seeds_key_noise"] = seeds_key_noise(flown) ? 1.0 : 0.0;
     const PaperTable* const paper = find_paper_table(flown.name);
     const bool is_papers = paper != nullptr && is_papers_structure(*paper, row.structure);

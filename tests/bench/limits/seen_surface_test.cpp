@@ -356,8 +356,7 @@ TEST(Ceiling, IsMeasuredAgainstWhatItsMissionsAre) {
   const std::string json = ceiling_json(scenario, ceilings[1], 0.0);
   EXPECT_NE(json.find("\"leaf_area_samples\""), std::string::npos);
   EXPECT_EQ(json.find("outside"), std::string::npos);
-  EXPECT_NE(ceiling_text(ceilings[1], 0.0).find("155,000 points drawn by area"),
-            std::string::npos);
+  EXPECT_NE(ceiling_text(ceilings[1], 0.0).find("155,000 points drawn by area"), std::string::npos);
 }
 
 TEST(Ceiling, LeavesLoseNothingOfSizesThatTheyDivide) {
