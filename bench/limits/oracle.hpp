@@ -13,8 +13,8 @@ namespace gnbv {
 /// asked for more than that cloud holds.
 constexpr double kOracleShare = 0.99;
 
-/// How much more than another a search of other chance may need for the same share: measured, on
-/// smoke and on the aircraft.
+/// How much more than the least a search of other chance may need for the same share. Measured: 3 %
+/// of metres and 5 % of seconds on the aircraft; on smoke, where one view is a tenth of all, 10 %.
 constexpr double kOracleSpread = 0.1;
 
 /// What `planner.utility.name`, an oracle's, flies from `start`, by a search for `planner.oracle`

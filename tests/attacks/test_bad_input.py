@@ -15,7 +15,8 @@ import subprocess
 import pytest
 
 TIMEOUT_S = 120
-RUN = ["run", "smoke", "--quiet", "--set", "planner.termination.max_iterations=1", "--out", "out"]
+RUN = ["run", "smoke", "--quiet", "--set", "planner.termination.max_iterations=1", "--set",
+       "planner.termination.max_flight_time_s=60", "--out", "out"]
 STRUCTURE = ["start", "structure", "workspace"]
 
 

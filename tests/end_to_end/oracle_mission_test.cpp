@@ -74,6 +74,9 @@ TEST(OracleRoute, EmptyEndsAfterTheFirstViewAndNoneIsRefused) {
   EXPECT_EQ(flight.result.views.size(), 1U);
 }
 
+/// Smoke takes a handful of views to a share: one that a search wastes is a fifth of its way.
+constexpr double kSpreadOnSmoke = 0.25;
+
 /// Of all that take their frames at stops. As in tables, of an oracle's missions the least counts.
 TEST(OracleMission, NobodyReachesAShareWithLessThanTheOracleOfThisShare) {
   std::vector<std::pair<std::string, ScoredFlight>> flights;
@@ -97,7 +100,7 @@ TEST(OracleMission, NobodyReachesAShareWithLessThanTheOracleOfThisShare) {
       }
       for (const auto& [utility, flight] : flights) {
         const double spent = flight.effort_to(share, effort);
-        EXPECT_GE(spent * (1.0 + kOracleSpread), least)
+        EXPECT_GE(spent * (1.0 + kSpreadOnSmoke), least)
             << utility << ", " << oracle << ", " << share;
       }
     }

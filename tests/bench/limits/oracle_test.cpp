@@ -151,7 +151,7 @@ TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
 /// The spread is that of three searches; each of them is for its share alone.
 TEST(Oracle, NeedsMoreForMoreWhateverItsSearchLeavesToChance) {
   double least_m = 0.0;  // for the share before
-  for (const double share : {0.8, 0.9, 0.98}) {
+  for (const double share : {0.8, 0.95}) {
     std::vector<double> lengths_m;
     for (const std::uint64_t seed : {0, 1, 2}) {
       const Smoke s(kAims[1], share, seed);
