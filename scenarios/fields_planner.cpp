@@ -283,9 +283,7 @@ void fields(const Keys& key, RouteConfig& c) {
 
 void fields(const Keys& key, OracleConfig& c) {
   key("coverage", c.coverage, {0, 1},
-      "At 0.05 m, that its views are to reach; 0: 99 % of what its cloud can hold, as also when "
-      "that "
-      "is less.");
+      "At 0.05 m, that its views are to reach; 0, or more than its cloud can hold: 99 % of that.");
   key("search_seed", c.search_seed, "Of what the search for its views leaves to chance.");
 }
 

@@ -51,7 +51,8 @@ constexpr std::string_view kWithProfile = "_with_profile";  // behind an effort
 /// area_samples; budget_* (of metres and seconds also kWithProfile) and mean_coverage_* by
 /// kEffortNames. With a ceiling: ceiling_* (of the
 /// cloud) and physical_ceiling_* by size, and by kEffortNames and kReachNames metres_to_0.95 and
-/// the like, of metres and seconds also kWithProfile.
+/// the like, of metres and seconds also kWithProfile. Who knows the scenario adds (1 or 0)
+/// seeds_key_noise, papers_structure and papers_setting.
 MissionRow mission_row(const RunFigures& run);
 void add_ceiling(const RunFigures& run, const Ceiling& ceiling, MissionRow& row);
 

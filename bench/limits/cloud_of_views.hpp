@@ -24,7 +24,7 @@ void take_view(const RayScene& scene, std::span<const CameraModel> cameras, cons
 std::vector<std::uint32_t> finds_alone(const VoxelSet& reference, std::span<const FrameRays> view,
                                        double leaf_m);
 
-/// Ascending: which voxels of `reference`, by index, hold any of the points.
+/// Ascending: which voxels of `reference`, by index, any of the points covers.
 std::vector<std::uint32_t> found_voxels(const VoxelSet& reference,
                                         std::span<const Vec3f> points_world_m);
 

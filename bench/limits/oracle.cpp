@@ -93,7 +93,7 @@ class Oracle {
     const double price = price_of_view(scenario_);
     const double share = wanted() / (survey_.leaf_counted[0] * static_cast<double>(voxels_.size()));
     constexpr double kUsualLoss = 0.99;  // of the cloud of all views beyond that of a tour
-    const CoverAim target = {part_of(all, kUsualLoss * share), price};
+    CoverAim target = {part_of(all, kUsualLoss * share), price};
     const CoveringTour greedy = greedy_tour(task_, {target.wanted, std::max(price, kGreedyPrice)});
     std::optional<Costed> best;
     CoveringTour last = greedy;
@@ -108,7 +108,8 @@ class Oracle {
   /// How many of the voxels that single views find it takes depends on the tour: the more views
   /// overlap, the more of them the common leaves lose. So the tour is searched again for what the
   /// last one lacked, or had too much, until it is right within a few voxels; the cheapest is kept.
-  CoveringTour search(const SurfaceCloud& flown, CoverAim target, const CoveringTour& greedy,
+  /// `target` is left as the last search had it, for the next to begin with.
+  CoveringTour search(const SurfaceCloud& flown, CoverAim& target, const CoveringTour& greedy,
                       std::size_t all, std::optional<Costed>& best) {
     constexpr int kRounds = 5;
     constexpr double kTooMuch = 8.0;  // voxels, and a share of those wanted

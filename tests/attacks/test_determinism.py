@@ -55,7 +55,7 @@ MISSIONS = {
     'no_new_points': ['planner.map.resolution_m=0.5', 'planner.cloud.leaf_m=0.5',
                       'planner.cloud.profile_leaf_m=0.5',
                       'planner.termination.max_views_without_new_points=2'],
-    'coverage_reached': ['benchmark.stop_at_coverage=0.8'],
+    'coverage_reached': ['benchmark.stop_at_coverage=0.6'],
     'lab_model': ['lab_model'],
 }
 ENDS = ('max_distance', 'max_flight_time', 'low_gain', 'no_new_points', 'coverage_reached')

@@ -9,8 +9,8 @@
 #include "bench/limits/oracle.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/flown.hpp"
+#include "tests/support/known_inputs.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/mission/start_pose.hpp"
 
 namespace gnbv {
 namespace {
@@ -38,12 +38,8 @@ ScoredFlight fly(const std::string& utility, double coverage = 0.0) {
   const World world = world_of(scenario);
   const RayScene scene(world);
   const SurfaceReference reference = reference_of(scenario, world, scene, 2);
-  MissionInputs inputs;
-  if (traits_of(scenario.planner).knows_structure) {
-    inputs.sources.route =
-        plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), 2);
-  }
-  MissionResult result = run_mission(scenario, world, scene, inputs, 2);
+  MissionResult result =
+      run_mission(scenario, world, scene, known_inputs(scenario, world, scene, reference), 2);
   const double voxel_m = scenario.planner.map.resolution_m;
   MissionScore score = score_cloud(reference, scene, scored_cloud(result), voxel_m, 2);
   return {std::move(result), std::move(score)};
@@ -74,9 +70,6 @@ TEST(OracleRoute, EmptyEndsAfterTheFirstViewAndNoneIsRefused) {
   EXPECT_EQ(flight.result.views.size(), 1U);
 }
 
-/// Smoke takes a handful of views to a share: one that a search wastes is a fifth of its way.
-constexpr double kSpreadOnSmoke = 0.25;
-
 /// Of all that take their frames at stops. As in tables, of an oracle's missions the least counts.
 TEST(OracleMission, NobodyReachesAShareWithLessThanTheOracleOfThisShare) {
   std::vector<std::pair<std::string, ScoredFlight>> flights;
@@ -100,7 +93,7 @@ TEST(OracleMission, NobodyReachesAShareWithLessThanTheOracleOfThisShare) {
       }
       for (const auto& [utility, flight] : flights) {
         const double spent = flight.effort_to(share, effort);
-        EXPECT_GE(spent * (1.0 + kSpreadOnSmoke), least)
+        EXPECT_GE(spent * (1.0 + kOracleSpread), least)
             << utility << ", " << oracle << ", " << share;
       }
     }

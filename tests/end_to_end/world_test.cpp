@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "bench/limits/oracle.hpp"
 #include "bench/score/cloud_metrics.hpp"
 #include "bench/score/mission_score.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/flown.hpp"
+#include "tests/support/known_inputs.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/resolve.hpp"
@@ -123,12 +123,7 @@ TEST(NoFlyMission, NoPoseAndNoLegLiesInABox) {
     const World world = world_of(scenario);
     const RayScene scene(world);
     const SurfaceReference reference = reference_of(scenario, world, scene, 2);
-    MissionInputs inputs;
-    if (traits_of(scenario.planner).knows_structure) {
-      inputs.sources.route =
-          plan_oracle(scenario, world, scene, reference, start_pose(scenario, scene), 2);
-    }
-    const Flown flown(scenario, inputs);
+    const Flown flown(scenario, known_inputs(scenario, world, scene, reference));
     EXPECT_NE(flown.result.termination, Termination::collision);
     EXPECT_GE(flown.result.views.size(), 2U);
     expect_clear_of(flown, box_m, scenario.planner.validity.collision_radius_m);

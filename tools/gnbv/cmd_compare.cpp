@@ -92,8 +92,13 @@ void add_compare_command(CLI::App& app) {
       "is known yet, each takes a minute");
   add_bench_options(*command, options->bench);
   no_ceiling->excludes(command->get_option("--ceiling-at"));
-  what_to_fly.push_back(
-      command->add_option("--sweep", request.sweep, "file of a sweep: fly its missions"));
+  CLI::Option* const sweep =
+      command->add_option("--sweep", request.sweep, "file of a sweep: fly its missions");
+  for (CLI::Option* const option : what_to_fly) sweep->excludes(option);
+  for (const char* name : {"--mesh", "--seed", "--set", "--bounds", "--seeds"}) {
+    sweep->excludes(command->get_option(name));
+  }
+  what_to_fly.push_back(sweep);
   CLI::Option* const from = command->add_option(
       "--from", request.from,
       "folder of a sweep, or files of rows (--missions): compare what they hold, fly nothing");

@@ -37,10 +37,10 @@ constexpr const char* kSeed = "seed";
 /// A field of a row, by its column's name.
 void take_field(const std::string& column, const std::string& text, const TextPlace& place,
                 MissionRow& row) {
-  for (const auto& [name, word] : kWords) {
-    if (column == name) return void(row.*word = text);
-  }
-  if (column == kSeed) {
+  const auto* const word = std::ranges::find(kWords, column, [](const auto& w) { return w.first; });
+  if (word != kWords.end()) {
+    row.*word->second = text;
+  } else if (column == kSeed) {
     const char* const end = text.data() + text.size();
     if (std::from_chars(text.data(), end, row.seed) != std::from_chars_result{end, {}}) {
       throw BadInput(fmt::format("{}: {}: '{}' is no seed", to_string(place), column, text));

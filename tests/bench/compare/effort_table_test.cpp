@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/bench/compare/paper_runs.hpp"
+
+namespace gnbv {
+namespace {
+
+/// A run that covers 0.9 of the structure after its first view of so many metres, all after two.
+RunFigures reaching(const std::string& utility, std::uint64_t seed, double metres,
+                    bool to_the_end) {
+  RunFigures r = example();
+  r.utility = utility;
+  r.seed = seed;
+  r.curve = {.coverage = {{0.1, 1, 1}, {0.9, 1, 1}}, .metres = {0, metres}, .seconds = {0, 1}};
+  if (to_the_end) {
+    r.curve.coverage.push_back({1.0, 1.0, 1.0});
+    r.curve.metres.push_back(2.0 * metres);
+    r.curve.seconds.push_back(2.0);
+  }
+  return r;
+}
+
+Ceiling all_of_it() {
+  Ceiling ceiling;
+  ceiling.leaf_counted = {1.0, 1.0, 1.0};
+  return ceiling;
+}
+
+/// Whoever got there after the budget of 300 m did not, and has spent it.
+TEST(EffortTable, IsTheMedianHowManyGotThereAndTheMeanWithinTheBudget) {
+  const PaperTable& paper = *find_paper_table("aircraft");
+  std::vector<RunFigures> runs = {
+      reaching("oracle_metres", 1, 50.0, true), reaching("oracle_metres", 2, 60.0, false),
+      reaching("proposed", 1, 100.0, true), reaching("proposed", 2, 120.0, true),
+      reaching("proposed", 3, 400.0, true)};
+  const TextTable unbounded = effort_table(paper, Effort::metres, rows_of(runs, all_of_it()));
+  EXPECT_EQ(texts(unbounded.rows[0]),
+            (Texts{"Proposed", "ours", "120.0 (3 of 3), 206.7", "120.0 (3 of 3), 206.7",
+                   "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3", "240.0 (3 of 3), 413.3"}));
+  for (RunFigures& run : runs) run.budgets = {0.0, 300.0, 0.0};
+  const TextTable table = effort_table(paper, Effort::metres, rows_of(runs, all_of_it()));
+  EXPECT_EQ(all_texts(table),
+            (std::vector<Texts>{
+                {"Proposed", "ours", "120.0 (2 of 3), 173.3", "120.0 (2 of 3), 173.3",
+                 "240.0 (2 of 3), 246.7", "240.0 (2 of 3), 246.7",
+                 "240.0 (2 of 3), 246.7"},  // 95 % and more: 200, 240, never
+                {"Oracle, few metres", "ours", "55.0 (2 of 2), 55.0", "55.0 (2 of 2), 55.0",
+                 "- (1 of 2), 200.0", "- (1 of 2), 200.0", "- (1 of 2), 200.0"}}));
+  EXPECT_EQ(table.rows[0][6].values[0], 240.0);
+  EXPECT_EQ(table.rows[0][6].values[1], 2.0);
+  EXPECT_EQ(table.rows[1][4].values[0], std::nullopt);
+  EXPECT_TRUE(effort_table(paper, Effort::metres, rows_of(runs)).rows.empty());
+  EXPECT_TRUE(effort_table(paper, Effort::metres, rows_of(runs, Ceiling{})).rows.empty());
+  runs[2].curve = {};
+  EXPECT_EQ(effort_table(paper, Effort::metres, rows_of(runs, all_of_it())).rows.at(0)[2].text,
+            "-");
+}
+
+/// What is flown for 90 % may get to 80 % first, too.
+TEST(EffortTable, OfMissionsThatWereFlownForAShareTheLeastCounts) {
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const std::vector<RunFigures> runs = {
+      reaching("oracle_metres", 1, 50.0, true),  reaching("oracle_metres", 2, 60.0, true),
+      reaching("proposed", 1, 100.0, true),      reaching("oracle_metres", 1, 20.0, false),
+      reaching("oracle_metres", 2, 22.0, false), reaching("oracle_metres", 1, 70.0, false)};
+  const std::vector<MissionRow> rows =
+      rows_of(runs, all_of_it(), {"", "", "", "for 0.90", "for 0.90", "for 0.99"});
+  const auto table = [&](Effort effort) {
+    auto all = all_texts(effort_table(paper, effort, rows));
+    for (Texts& row : all) {
+      for (std::string& text : row) text = text.substr(0, text.find(','));
+    }
+    return all;
+  };
+  EXPECT_EQ(table(Effort::metres)[0],
+            (Texts{"Proposed", "ours", "100.0 (1 of 1)", "100.0 (1 of 1)", "200.0 (1 of 1)",
+                   "200.0 (1 of 1)", "200.0 (1 of 1)"}));
+  EXPECT_EQ(table(Effort::metres)[1][2], "21.0 (2 of 2)");
+  EXPECT_EQ(table(Effort::metres)[1][3], "21.0 (2 of 2)");
+  EXPECT_EQ(table(Effort::metres)[1][4], "110.0 (2 of 2)");  // 100 and 120 m
+  EXPECT_EQ(table(Effort::seconds)[0][2], "1.0 (1 of 1)");
+  EXPECT_EQ(table(Effort::seconds)[0][4], "2.0 (1 of 1)");
+  const TextTable whole = comparison_table(paper, rows);
+  EXPECT_EQ(std::ranges::count(whole.rows, "Oracle, few metres",
+                               [](const auto& row) { return row[0].text; }),
+            1);
+}
+
+TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const std::vector<RunFigures> runs = {reaching("tour", 1, 100.0, true),
+                                        reaching("proposed", 1, 100.0, true),
+                                        reaching("proposed", 1, 90.0, true)};
+  const std::vector<MissionRow> rows = rows_of(runs, all_of_it(), {"", "", "leaf_m=0.07"});
+  const TextTable both = with_columns_of(comparison_table(paper, rows),
+                                         effort_table(paper, Effort::metres, rows), kSharedColumns);
+  int filled = 0;
+  for (const auto& row : both.rows) {
+    ASSERT_EQ(row.size(), both.columns.size());
+    filled += row.back().text == "-" ? 0 : 1;
+    const bool is_mission = row[1].text == "ours" && !row[0].text.starts_with("Profile");
+    EXPECT_EQ(row.back().text != "-", is_mission);
+  }
+  EXPECT_EQ(filled, 3);
+}
+
+}  // namespace
+}  // namespace gnbv
