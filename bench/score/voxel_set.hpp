@@ -38,7 +38,7 @@ Vec3 voxel_centre_m(std::uint64_t code, double size_m);
 /// within this of, along each axis. What lies on a voxel's face, as walls at round coordinates do,
 /// so does not belong to one side or the other by the last bit. Ten times what rays and files in
 /// float lose; more would lend a sparse cloud neighbours along its walls.
-constexpr double kCoverReach_m = 0.0002;
+constexpr double kCoverReach_m = 0.00015;
 
 /// The voxels that a point covers, one to eight.
 struct CoveredVoxels {

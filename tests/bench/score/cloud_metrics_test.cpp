@@ -246,9 +246,9 @@ TEST(CloudFaults, EmptyNotFiniteAndTooFarArePointedAt) {
 }
 
 TEST(ScorablePoints, AreAllThatDoNotLieBelowTheFloorAndItsReachInTheirOrder) {
-  const std::vector<Vec3f> kept = {Vec3f(30, 0, 9), Vec3f(0, 0, 0.29981F), Vec3f(-30, 0, 2)};
+  const std::vector<Vec3f> kept = {Vec3f(30, 0, 9), Vec3f(0, 0, 0.29986F), Vec3f(-30, 0, 2)};
   std::vector<Vec3f> cloud = kept;
-  cloud.insert(cloud.begin() + 1, Vec3f(0, 0, 0.29979F));
+  cloud.insert(cloud.begin() + 1, Vec3f(0, 0, 0.29984F));
   cloud.emplace_back(0.0F, 60000.0F, -60000.0F);  // lost under the floor, whatever else it is
   EXPECT_EQ(scorable_points("a.ply", cloud, kFloor_z_m, scene(), kStructure), kept);
   EXPECT_TRUE(complains({Vec3f(0, 0, 0), Vec3f(1, 0, 0)}, "all 2 points lie below z = 0.3 m"));

@@ -229,11 +229,11 @@ TEST(AreaSamples, VoxelsAndShareAreThoseOfAPlainLoop) {
       return cells;
     };
     const auto held = cells_of(drawn);
-    std::vector<Vec3f> around;  // corners of a cube of 0.4 mm: they lie in all that a point covers
+    std::vector<Vec3f> around;  // corners of a cube of 0.3 mm: they lie in all that a point covers
     for (int k = 0; k < 8; ++k) {
       const Vec3f corner(k % 2 == 0 ? -1.0F : 1.0F, k / 2 % 2 == 0 ? -1.0F : 1.0F,
                          k / 4 == 0 ? -1.0F : 1.0F);
-      for (const Vec3f& p : cloud) around.push_back(p + 0.0002F * corner);
+      for (const Vec3f& p : cloud) around.push_back(p + 0.00015F * corner);
     }
     const auto met = cells_of(around);
     const auto found = std::ranges::count_if(held, [&](const auto& c) { return met.contains(c); });
