@@ -53,8 +53,8 @@ inline const TableCell& cell_of(const TextTable& table, std::size_t row, const s
 
 /// `settings`: of each, or of none.
 inline std::vector<MissionRow> rows_of(std::span<const RunFigures> runs,
-                                const std::optional<Ceiling>& ceiling = {},
-                                const std::vector<std::string>& settings = {}) {
+                                       const std::optional<Ceiling>& ceiling = {},
+                                       const std::vector<std::string>& settings = {}) {
   std::vector<MissionRow> rows;
   for (const RunFigures& run : runs) {
     MissionRow& row = rows.emplace_back(mission_row(run));
