@@ -20,6 +20,7 @@ enum class ProfilingMethod { bounding_box, circular, saved, none };
 struct ProfilingConfig {
   ProfilingMethod method = ProfilingMethod::bounding_box;
   bool scan_in_transit = true;  // LIDAR on between the descents too
+  double flight_rate_hz = 0.0;  // sweeps a second between the views, of each LIDAR; 0: none
   std::string file;             // saved: profile.map of an earlier run
   int circle_stations = 5;      // circular: evenly spread
   double climb_step_m = 1.0;    // circular: how far it climbs before it asks again

@@ -58,6 +58,9 @@ void fields(const Keys& key, ProfilingConfig& c) {
       "The rough scan before the first view.");
   key.only_if(flies_a_profile, ".method")("scan_in_transit", c.scan_in_transit,
                                           "The LIDAR scans between the descents, too.");
+  key("flight_rate_hz", c.flight_rate_hz, {0, 1e3},
+      "Sweeps a second of each LIDAR between the views: surface to look at, which covers nothing; "
+      "0: none.");
   key.only_if(c.method == saved, ".method")
       .path("file", c.file, "saved: an earlier run's profile.map.");
   const Keys on_circle = key.only_if(c.method == circular, ".method");

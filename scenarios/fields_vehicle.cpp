@@ -153,6 +153,9 @@ void fields(const Keys& key, VehicleConfig& c) {
 }
 
 void fields(const Keys& key, GuidanceConfig& c) {
+  using enum Trajectory;
+  key.of_papers_setting()("trajectory", c.trajectory, {{legs, "legs"}, {smooth, "smooth"}},
+                          "From view to view: straight, with a stop at each; smooth: passes them.");
   key("path_speed_m_s", c.path_speed_m_s, {0.01, 50}, "Top speed between views.");
   const Keys profiling = key.only_if(flies_a_profile, "planner.profiling.method");
   profiling("profile_speed_m_s", c.profile_speed_m_s, {0.01, 50}, "Top speed of descents.");
@@ -165,6 +168,9 @@ void fields(const Keys& key, GuidanceConfig& c) {
   key("arrival_distance_m", c.arrival_distance_m, positive(10), "Arrived: nearer than this.");
   key.angle("arrival_yaw_deg", c.arrival_yaw_rad, positive(180), "Arrived: turned up to this.");
   key("arrival_speed_m_s", c.arrival_speed_m_s, positive(10), "Arrived: slower than this.");
+  const Keys passing = key.only_if(c.trajectory == smooth, ".trajectory");
+  passing("pass_distance_m", c.pass_distance_m, positive(10), "smooth: a view passed this near.");
+  passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180), "smooth: turned up to this there.");
   key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
 }
 

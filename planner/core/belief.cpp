@@ -52,6 +52,7 @@ bool PlannerModel::can_pitch(double gimbal_pitch_rad) const {
 Belief::Belief(const PlannerModel& model)
     : grid(model.belief.map, model.workspace_m, model.belief.object_bounds_m),
       cloud(model.belief.cloud, grid.geometry()),
+      ranged({.leaf_m = model.belief.cloud.profile_leaf_m}, grid.geometry()),
       shadow(model.belief.shadow, grid.geometry()),
       floor_z_m(model.belief.floor_z_m) {}
 
@@ -64,8 +65,11 @@ Scratch::Scratch(const PlannerModel& model, int thread_count)
   frontier_marks = FrontierMarks(voxels);
 }
 
-void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
-                       Scratch& scratch, Belief& belief) {
+namespace {
+
+/// Adds the sweeps to the map; what they hit.
+std::vector<Vec3f> insert_scans(const PlannerModel& model, std::span<const LidarScan> scans,
+                                Scratch& scratch, Belief& belief) {
   const double floor_z_m = model.belief.floor_z_m;
   scratch.inserter.insert_scans(belief.grid, scans, model.lidars, floor_z_m, scratch.threads);
   std::vector<Vec3f> points;
@@ -74,7 +78,19 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
     const std::vector<Vec3f> hits = surface_points_world_m(rays_of(scan, lidar, floor_z_m));
     points.insert(points.end(), hits.begin(), hits.end());
   }
-  belief.cloud.add(points, model.belief.cloud.profile_leaf_m);
+  return points;
+}
+
+}  // namespace
+
+void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
+                       Scratch& scratch, Belief& belief) {
+  belief.cloud.add(insert_scans(model, scans, scratch, belief), model.belief.cloud.profile_leaf_m);
+}
+
+void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
+                      Belief& belief) {
+  belief.ranged.add(insert_scans(model, scans, scratch, belief), model.belief.cloud.profile_leaf_m);
 }
 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,

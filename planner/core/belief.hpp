@@ -61,6 +61,7 @@ struct Belief {
 
   OccupancyGrid grid;
   SurfaceCloud cloud;
+  SurfaceCloud ranged;  // what LIDARs saw between views: surface to look at, which covers nothing
   ShadowBand shadow;
   double floor_z_m;               // returns below were taken for the floor
   bool has_depth_return = false;  // any camera has seen a surface
@@ -93,6 +94,10 @@ struct Scratch {
 /// Adds the buffered sweeps of the profile in one batch (paper section 2.2).
 void integrate_profile(const PlannerModel& model, std::span<const LidarScan> scans,
                        Scratch& scratch, Belief& belief);
+
+/// Adds sweeps that were taken between views.
+void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
+                      Belief& belief);
 
 /// Adds the frames of one view, camera by camera.
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,

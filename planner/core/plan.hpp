@@ -70,6 +70,7 @@ struct Decision {
   Score score = {};
   std::vector<Vec3> via_world_m = {};  // points on the way there; none: straight
   int plan_view = 1;                   // its number in its plan: from 2 on nothing was decided
+  std::vector<ViewPose> then = {};     // meant to be flown after it, by straight legs; not in files
 };
 
 /// A sampled view with what became of it.

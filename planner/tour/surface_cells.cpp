@@ -222,7 +222,7 @@ void SurfaceCells::place_discs(SurfaceCell& cell) const {
 }
 
 void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid,
-                       int threads, const HeedStop& stop) {
+                       int threads, const HeedStop& stop, bool covers) {
   ++version_;
   std::vector<std::uint32_t> touched;
   for (const Vec3f& point_m : points_world_m) {
@@ -232,7 +232,7 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
     SurfaceCell& cell = cells_[index];
     const Vec3 from_center_m = point_m.cast<double>() - lattice_.center_m(key);
     cell.moments.add(from_center_m);
-    cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
+    if (covers) cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
     if (touched.empty() || touched.back() != index) touched.push_back(index);
   }
   sort_unique(touched);

@@ -69,9 +69,10 @@ class SurfaceCells {
 
   /// Adds points, and fits again what they change. Cells beside those with points are extrapolated
   /// along the plane, but not into space that the map knows to be free. Points that lie along a
-  /// line and on no plane are those of a thin bar.
+  /// line and on no plane are those of a thin bar. `covers`: whether the voxels with the points
+  /// hold one from now on, or are only expected to.
   void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads,
-           const HeedStop& stop = {});
+           const HeedStop& stop = {}, bool covers = true);
   /// Drops extrapolated cells that the map has found free, and finds the boundaries anew: unknown
   /// voxels beside free and occupied ones, where the cells expect nothing.
   void follow_map(const OccupancyGrid& grid);

@@ -14,6 +14,9 @@ namespace {
 // Nodes that are observed again at each replan: those around which the surface changed most. All of
 // them cost ten times as much and change no tour by more than its seed does.
 constexpr std::size_t kObservedAgain = 80;
+// So many views of the tour after the next are told with it: what a vehicle that passes views needs
+// to know in time.
+constexpr std::size_t kViewsAhead = 3;
 // Of all expected voxels: once no more than this is left, the cost of a metre falls no further.
 // Cameras miss more than this of surface that they have seen three times.
 constexpr double kEndShare = 0.003;
@@ -44,6 +47,10 @@ void update_surface(const Step& step) {
   const std::span<const Vec3f> fresh =
       step.belief.cloud.points_world_m().subspan(state.points_taken);
   state.points_taken += fresh.size();
+  const std::span<const Vec3f> ranged =
+      step.belief.ranged.points_world_m().subspan(state.ranged_taken);
+  state.ranged_taken += ranged.size();
+  state.cells.add(ranged, step.belief.grid, step.scratch.threads, step.stop, false);
   state.cells.add(fresh, step.belief.grid, step.scratch.threads, step.stop);
   const Gain gain = state.calibration.settle(state.cells);
   const bool is_short = gain.found < step.config.replan_below * gain.predicted;
@@ -194,6 +201,8 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
         state.cells);
     candidate.score = {.value = gain, .information = gain};
     choose(plan, plan.candidates.size() - 1, left, left);
+    const std::size_t ahead = std::min(kViewsAhead, state.tour.size());
+    for (std::size_t i = 0; i < ahead; ++i) plan.views.back().then.push_back(state.tour[i].pose);
     state.at = view.node;
     ++state.views_since_replan;
     return true;
@@ -263,7 +272,9 @@ Plan TourPlanner::replay(std::span<const Decision> recorded, const Belief& belie
                          const History& history, const ViewPose& current, Scratch& scratch) {
   Plan plan = next(belief, history, current, scratch);
   need_as_recorded(plan, recorded, history.decisions.size());
+  std::vector<ViewPose> then = plan.has_view() ? plan.next().then : std::vector<ViewPose>();
   plan.views = {recorded.front()};
+  plan.views.front().then = std::move(then);
   return plan;
 }
 

@@ -29,6 +29,7 @@ struct TourState {
   SurfaceCells cells;
   std::vector<Patch> patches;
   std::size_t points_taken = 0;  // of the cloud
+  std::size_t ranged_taken = 0;  // of what LIDARs saw
   GainCalibration calibration;
 
   // where views may be taken from, and what they would see

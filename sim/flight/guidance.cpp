@@ -2,41 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/flight/flight.hpp"
 #include "sim/flight/rotors.hpp"
-#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 namespace {
 
-constexpr int kTicksPerSetpoint = 5;   // 20 ms
+constexpr int kTicksPerSetpoint = 5;
+static_assert(kTicksPerSetpoint * kTick_s == kReference_s);
 constexpr double kShareOfLimit = 0.8;  // of the autopilot's, so that its loops can still correct
-
-/// A quadrotor is led below its autopilot's limits.
-double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig& vehicle) {
-  if (vehicle.kind == VehicleKind::ideal) return speed_m_s;
-  const AutopilotParameters& autopilot = vehicle.autopilot;
-  const auto limited = [&](double speed, double share, double limit_m_s) {
-    return share > 0.0 ? std::min(speed, kShareOfLimit * limit_m_s / share) : speed;
-  };
-  double speed = limited(speed_m_s, direction.head<2>().norm(), autopilot.speed_max_m_s);
-  speed = limited(speed, direction.z(), autopilot.climb_speed_max_m_s);
-  return limited(speed, -direction.z(), autopilot.descent_speed_max_m_s);
-}
-
-/// A quadrotor turns by unequal rotors: a tenth of their command is left for it, of the 0.15 beyond
-/// which the mixer gives yaw up first.
-RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
-  if (vehicle.kind == VehicleKind::ideal) {
-    return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
-  }
-  const double authority_rad_s2 = 0.1 * yaw_authority_rad_s2(vehicle.airframe);
-  const double share = std::min(1.0, authority_rad_s2 / config.yaw_acceleration_rad_s2);
-  return {std::min(config.yaw_rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
-          share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
-}
 
 /// How much later than the setpoint the tilt follows. A loop of gain P follows a long ramp 1 / P
 /// later; those of a leg are short: with 0.8 of it the presets deviate and overshoot least on the
@@ -45,13 +22,43 @@ double attitude_lag_s(const AutopilotParameters& autopilot) {
   return 0.8 / autopilot.attitude_p_per_s.x();
 }
 
+/// `ahead`: the reference attitude_lag_s() later. What the tilt needs is sent ahead of it by its
+/// lag, what the rotors need at once.
+Setpoint setpoint_of(const Reference& now, const Reference& ahead, const VehicleConfig& vehicle) {
+  const auto wanted_at = [&](const Reference& then) {
+    return acceleration_setpoint(vehicle.airframe, vehicle.autopilot, then.v_world_m_s,
+                                 then.a_world_m_s2);
+  };
+  const Vec3 wanted_ahead = wanted_at(ahead);
+  const Vec3 tilt_part(wanted_ahead.x(), wanted_ahead.y(), wanted_at(now).z());
+  // a tilt that lags is carried round by the turning body
+  const double carried_rad = now.yaw_rate_rad_s * attitude_lag_s(vehicle.autopilot);
+  return {.p_world_m = now.p_world_m,
+          .v_world_m_s = now.v_world_m_s,
+          .a_world_m_s2 = Eigen::AngleAxisd(-carried_rad, Vec3::UnitZ()) * tilt_part,
+          .yaw_rad = now.yaw_rad,
+          .yaw_rate_rad_s = now.yaw_rate_rad_s};
+}
+
+/// Holds the setpoint for as long as it lasts; why the flight ends, if it does.
+std::optional<LegEnd> hold(Flight& flight, const Setpoint& setpoint,
+                           const std::function<bool(const Flight&)>& on_tick) {
+  flight.command(setpoint);
+  for (int i = 0; i < kTicksPerSetpoint; ++i) {
+    flight.step();
+    const bool goes_on = !on_tick || on_tick(flight);
+    if (flight.has_collided()) return LegEnd::collision;
+    if (!goes_on) return LegEnd::stopped;
+  }
+  return std::nullopt;
+}
+
 /// The reference of one leg: the straight line, and the short way round to the heading.
 class Leg {
  public:
   Leg(const ViewPose& start, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
       const VehicleConfig& vehicle)
-      : vehicle_(vehicle),
-        start_(start),
+      : start_(start),
         goal_(goal),
         turn_rad_(wrap_angle_rad(goal.yaw_rad - start.yaw_rad)),
         direction_((goal.p_world_m - start.p_world_m).normalized()),
@@ -62,37 +69,21 @@ class Leg {
 
   double duration_s() const { return std::max(path_.duration_s(), turn_.duration_s()); }
 
-  Setpoint at(double time_s) const {
+  Reference at(double time_s) const {
     const Motion path = path_.at(time_s);
     const Motion turn = turn_.at(time_s);
-    const double yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_);
-    Setpoint setpoint{
+    Reference now{
         .p_world_m = start_.p_world_m + path.position * direction_,
         .v_world_m_s = path.speed * direction_,
-        .a_world_m_s2 = acceleration_ahead(time_s, yaw_rate_rad_s),
+        .a_world_m_s2 = path.acceleration * direction_,
         .yaw_rad = wrap_angle_rad(start_.yaw_rad + std::copysign(turn.position, turn_rad_)),
-        .yaw_rate_rad_s = yaw_rate_rad_s};
-    if (time_s >= path_.duration_s()) setpoint.p_world_m = goal_.p_world_m;
-    if (time_s >= turn_.duration_s()) setpoint.yaw_rad = goal_.yaw_rad;
-    return setpoint;
+        .yaw_rate_rad_s = std::copysign(turn.speed, turn_rad_)};
+    if (time_s >= path_.duration_s()) now.p_world_m = goal_.p_world_m;
+    if (time_s >= turn_.duration_s()) now.yaw_rad = goal_.yaw_rad;
+    return now;
   }
 
  private:
-  /// What the tilt needs is sent ahead of it by its lag, what the rotors need at once.
-  Vec3 acceleration_ahead(double time_s, double yaw_rate_rad_s) const {
-    const double lag_s = attitude_lag_s(vehicle_.autopilot);
-    const auto wanted_at = [&](double t_s) {
-      const Motion path = path_.at(t_s);
-      return acceleration_setpoint(vehicle_.airframe, vehicle_.autopilot, path.speed * direction_,
-                                   path.acceleration * direction_);
-    };
-    const Vec3 ahead = wanted_at(time_s + lag_s);
-    const Vec3 tilt_part(ahead.x(), ahead.y(), wanted_at(time_s).z());
-    // a tilt that lags is carried round by the turning body
-    return Eigen::AngleAxisd(-yaw_rate_rad_s * lag_s, Vec3::UnitZ()) * tilt_part;
-  }
-
-  const VehicleConfig& vehicle_;
   ViewPose start_;
   ViewPose goal_;
   double turn_rad_;
@@ -120,20 +111,50 @@ LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const Gui
              "the goal must be finite and the speed, {} m/s, positive", speed_m_s);
   const Leg leg(level_pose(flight.estimate()), goal, speed_m_s, config, vehicle);
   if (!(leg.duration_s() <= kLongestLeg_s)) return LegEnd::timeout;
+  const double lag_s = attitude_lag_s(vehicle.autopilot);
   for (int sent = 0;; ++sent) {
     const double time_s = sent * kTicksPerSetpoint * kTick_s;
     if (time_s > leg.duration_s() + config.timeout_s) return LegEnd::timeout;
-    flight.command(leg.at(time_s));
-    for (int i = 0; i < kTicksPerSetpoint; ++i) {
-      flight.step();
-      const bool goes_on = !on_tick || on_tick(flight);
-      if (flight.has_collided()) return LegEnd::collision;
-      if (!goes_on) return LegEnd::stopped;
-    }
+    const Setpoint setpoint = setpoint_of(leg.at(time_s), leg.at(time_s + lag_s), vehicle);
+    if (const auto over = hold(flight, setpoint, on_tick)) return *over;
     if (time_s >= leg.duration_s() && has_arrived(flight.estimate(), goal, config)) {
       return LegEnd::arrived;
     }
   }
+}
+
+LegEnd fly_path(Flight& flight, std::span<const Reference> path, std::size_t& at, std::size_t poses,
+                const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick) {
+  const auto lag =
+      static_cast<std::size_t>(std::lround(attitude_lag_s(vehicle.autopilot) / kReference_s));
+  while (at < path.size() && path[at].passed < poses) {
+    const Reference& now = path[at];
+    const Reference& ahead = path[std::min(at + lag, path.size() - 1)];
+    ++at;
+    if (const auto over = hold(flight, setpoint_of(now, ahead, vehicle), on_tick)) return *over;
+  }
+  return LegEnd::arrived;
+}
+
+double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) return speed_m_s;
+  const AutopilotParameters& autopilot = vehicle.autopilot;
+  const auto limited = [&](double speed, double share, double limit_m_s) {
+    return share > 0.0 ? std::min(speed, kShareOfLimit * limit_m_s / share) : speed;
+  };
+  double speed = limited(speed_m_s, direction.head<2>().norm(), autopilot.speed_max_m_s);
+  speed = limited(speed, direction.z(), autopilot.climb_speed_max_m_s);
+  return limited(speed, -direction.z(), autopilot.descent_speed_max_m_s);
+}
+
+RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  if (vehicle.kind == VehicleKind::ideal) {
+    return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
+  }
+  const double authority_rad_s2 = 0.1 * yaw_authority_rad_s2(vehicle.airframe);
+  const double share = std::min(1.0, authority_rad_s2 / config.yaw_acceleration_rad_s2);
+  return {std::min(config.yaw_rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
+          share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
 }
 
 double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,

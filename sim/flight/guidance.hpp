@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
-#include "sim/core/pose.hpp"
+#include "sim/flight/smooth_path.hpp"
+#include "sim/flight/trajectory.hpp"
 
 namespace gnbv {
 
@@ -13,8 +15,13 @@ struct AirframeParameters;
 struct AutopilotParameters;
 struct VehicleConfig;
 
+/// How a vehicle flies from view to view: straight legs from rest to rest, the paper; or one smooth
+/// way that passes them.
+enum class Trajectory { legs, smooth };
+
 /// Acceleration and arrival are those of the released vehicle_control_iris.cpp, arrival tighter.
 struct GuidanceConfig {
+  Trajectory trajectory = Trajectory::legs;
   double path_speed_m_s = 2.0;
   double profile_speed_m_s = 1.0;
   double acceleration_m_s2 = 1.0;
@@ -25,6 +32,8 @@ struct GuidanceConfig {
   double arrival_distance_m = 0.1;
   double arrival_yaw_rad = deg_to_rad(3.0);
   double arrival_speed_m_s = 0.05;
+  double pass_distance_m = 0.6;  // smooth: a view is taken as near to it as this
+  double pass_yaw_rad = deg_to_rad(15.0);
   double timeout_s = 60.0;  // beyond the time the reference itself needs
 };
 
@@ -42,6 +51,17 @@ constexpr double kLongestLeg_s = 3600.0;
 /// returns false the leg ends as `stopped`.
 LegEnd fly_leg(Flight& flight, const ViewPose& goal, double speed_m_s, const GuidanceConfig& config,
                const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick);
+
+/// Flies the way from its reference number `at` on, which follows the vehicle, until it has passed
+/// `poses` of its poses, or to its end. Setpoints and `on_tick` are those of fly_leg().
+LegEnd fly_path(Flight& flight, std::span<const Reference> path, std::size_t& at, std::size_t poses,
+                const VehicleConfig& vehicle, const std::function<bool(const Flight&)>& on_tick);
+
+/// A quadrotor is led below its autopilot's limits.
+double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig& vehicle);
+/// A quadrotor turns by unequal rotors: a tenth of their command is left for it, of the 0.15 beyond
+/// which the mixer gives yaw up first.
+RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle);
 
 /// How long the reference of such a leg takes; the vehicle arrives a little later.
 double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,

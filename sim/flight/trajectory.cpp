@@ -77,10 +77,10 @@ std::array<Motion, 3> advance_together(const std::array<Motion, 3>& axes,
   return after;
 }
 
-double braking_speed(double distance, const AxisLimits& limits) {
+double braking_speed(double distance, const AxisLimits& limits, double end_speed) {
   const double b = 4.0 * limits.acceleration * limits.acceleration / limits.jerk;
-  const double c = 8.0 * limits.acceleration * distance;
-  return 0.5 * (std::sqrt(b * b + c) - b);
+  const double c = 8.0 * limits.acceleration * distance + 4.0 * end_speed * end_speed;
+  return std::max(end_speed, 0.5 * (std::sqrt(b * b + c) - b));
 }
 
 RestToRest::RestToRest(double distance, const Limits& limits)

@@ -43,9 +43,10 @@ std::array<Motion, 3> advance_together(const std::array<Motion, 3>& axes,
                                        const std::array<double, 3>& speeds,
                                        const std::array<AxisLimits, 3>& limits, double dt_s);
 
-/// The speed from which a vehicle can still come to rest within `distance`; the jerk is granted 4
-/// a^2 / j of speed times half the distance (TrajMath.hpp, computeMaxSpeedFromDistance).
-double braking_speed(double distance, const AxisLimits& limits);
+/// The speed from which a vehicle can still brake to `end_speed`, by default to rest, within
+/// `distance`; the jerk is granted 4 a^2 / j of speed times half the distance (TrajMath.hpp,
+/// computeMaxSpeedFromDistance).
+double braking_speed(double distance, const AxisLimits& limits, double end_speed = 0.0);
 
 /// From rest to rest in the least time that limits on speed, acceleration and jerk allow.
 class RestToRest {

@@ -47,6 +47,7 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   m.out.distance.straight_m = planned_m(m.history, m.current.p_world_m, next);
   std::vector<DepthFrame> pending;
   const auto look = [&](const Flight& flight) {
+    m.scanner.tick(flight, m.scenario.planner.profiling.flight_rate_hz > 0.0);
     integrate_view(m.model, pending, m.scratch, m.out.belief);
     pending.clear();
     turn_gimbal(m, next.view);
@@ -55,17 +56,22 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
       if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
-  std::vector<ViewPose> legs;
-  for (const Vec3& via_m : next.via_world_m) {
-    legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});
-  }
-  legs.push_back(next.view);
   const double speed_m_s = m.scenario.guidance.path_speed_m_s;
   std::optional<Termination> over;
-  for (std::size_t i = 0; i < legs.size() && !over; ++i) {
-    // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
-    if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
-    over = fly_leg(m, legs[i], speed_m_s, look);
+  std::vector<ViewPose> legs;
+  if (m.scenario.guidance.trajectory == Trajectory::smooth) {
+    if (!m.corners.empty()) m.exits = m.corners;
+    over = fly_past(m, next, look);
+  } else {
+    for (const Vec3& via_m : next.via_world_m) {
+      legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});
+    }
+    legs.push_back(next.view);
+    for (std::size_t i = 0; i < legs.size() && !over; ++i) {
+      // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
+      if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
+      over = fly_leg(m, legs[i], speed_m_s, look);
+    }
   }
   while (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) {
     over = fly_leg(m, next.view, speed_m_s, look);
@@ -99,6 +105,7 @@ std::vector<DepthFrame> sense(Mission& m) {
 
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const ScopeTimer timer(m.view_wall.map_s);
+  integrate_sweeps(m.model, m.scanner.take_scans(), m.scratch, m.out.belief);
   integrate_view(m.model, frames, m.scratch, m.out.belief);
 }
 
@@ -179,6 +186,7 @@ void keep_views_not_tried(Mission& m) {
 MissionResult finish(Mission& m, Termination reason) {
   m.out.termination = reason;
   keep_views_not_tried(m);
+  if (reason != Termination::collision) come_to_rest(m);
   if (ends_at_home(m, reason)) fly_home(m);
   m.out.flight_time_s = time_s(*m.flight);
   m.out.energy_wh = m.flight->energy_wh();

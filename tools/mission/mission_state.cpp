@@ -50,6 +50,7 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       scratch(model, threads),
       out(start_pose(scenario, scene), model),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),
+      scanner(scene, model.lidars, scenario.seed, scenario.planner.profiling.flight_rate_hz),
       current(out.start),
       last_p_world_m(out.start.p_world_m),
       gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
@@ -100,6 +101,19 @@ std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& 
   return way_m;
 }
 
+bool goes_on(const Mission& m) {
+  return !is_off_course(m) && has_energy_to_go_on(m) && has_time_to_go_on(m) &&
+         !stops_on_the_way(m);
+}
+
+std::optional<Termination> over_after(const Mission& m, LegEnd end) {
+  if (end == LegEnd::collision) return Termination::collision;
+  if (end != LegEnd::stopped) return std::nullopt;
+  if (is_off_course(m)) return Termination::off_course;
+  if (stops_on_the_way(m)) return Termination::interrupted;
+  return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
+}
+
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
   const Vec3 from_m = m.flight->estimate().T_world_body.translation();
@@ -109,15 +123,9 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
         keep_track(m);
         m.out.path_error.add(distance_to_segment_m(m.last_p_world_m, from_m, goal.p_world_m));
         on_tick(flight);
-        return !is_off_course(m) && has_energy_to_go_on(m) && has_time_to_go_on(m) &&
-               !stops_on_the_way(m);
+        return goes_on(m);
       });
-  if (end == LegEnd::collision) return Termination::collision;
-  if (end == LegEnd::stopped) {
-    if (is_off_course(m)) return Termination::off_course;
-    if (stops_on_the_way(m)) return Termination::interrupted;
-    return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
-  }
+  if (const auto over = over_after(m, end)) return over;
   m.current = goal;
   if (end == LegEnd::timeout) {
     ++m.out.legs_timed_out;

@@ -8,9 +8,12 @@
 
 #include "planner/core/belief.hpp"
 #include "planner/core/planner.hpp"
+#include "planner/motion/free_space.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "sim/flight/flight.hpp"
+#include "sim/flight/guidance.hpp"
 #include "tools/mission/mission.hpp"
+#include "tools/mission/sensing.hpp"
 
 namespace gnbv {
 
@@ -35,12 +38,15 @@ struct Mission {
 
   MissionResult out;
   std::unique_ptr<Flight> flight;
+  ProfileScanner scanner;  // of sweeps between views
   History history;
   std::unique_ptr<Planner> planner;
   ViewPose current;               // where the planner believes to be
   Vec3 last_p_world_m;            // truth, one tick ago
   double gimbal_pitch_rad = 0.0;  // where it is
   double flown_m = 0.0;           // truth, since the start
+  std::vector<Reference> path;    // that passes views; known to be clear to its end, where it rests
+  std::size_t path_at = 0;        // of it, the reference that comes next
   std::vector<Exit> exits;        // none: home leads over the top
   std::vector<Exit> corners;      // of the way to the next view, ends included
   bool is_homing = false;         // on the last way, with energy for it
@@ -75,6 +81,20 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
                                    const std::function<void(const Flight&)>& on_tick);
 /// At path speed, with nothing to do on the way.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal);
+
+/// Asked after each tick: whether a leg or a way is flown on.
+bool goes_on(const Mission& m);
+/// What ended a leg or a way; nothing when it arrived.
+std::optional<Termination> over_after(const Mission& m, LegEnd end);
+
+// ---- passing.cpp: one smooth way that passes views (guidance.trajectory: smooth).
+
+/// Flies past the view, the vehicle moving on, by a way that is clear of all that is known to be
+/// occupied, and through nothing that is not known to be free; where there is none, by legs.
+std::optional<Termination> fly_past(Mission& m, const Decision& next,
+                                    const std::function<void(const Flight&)>& on_tick);
+/// Flies the way at hand to its end.
+void come_to_rest(Mission& m);
 
 /// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2), or
 /// takes up the belief that an earlier profile left; then predicts what symmetry tells of the rest

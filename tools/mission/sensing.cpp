@@ -45,12 +45,12 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
 }
 
 ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars,
-                               std::uint64_t seed)
-    : scene_(scene), lidars_(lidars), seed_(seed) {}
+                               std::uint64_t seed, std::optional<double> rate_hz)
+    : scene_(scene), lidars_(lidars), seed_(seed), rate_hz_(rate_hz) {}
 
 void ProfileScanner::tick(const Flight& flight, bool is_on) {
   for (std::size_t i = 0; is_on && i < lidars_.size(); ++i) {
-    if (!is_due(lidars_[i].config.rate_hz, flight.tick())) continue;
+    if (!is_due(rate_hz_.value_or(lidars_[i].config.rate_hz), flight.tick())) continue;
     sweeps_.push_back({i, flight.tick(), flight.estimate().T_world_body, {}});
   }
   for (Sweep& sweep : sweeps_) sweep.T_world_body.push_back(flight.state().T_world_body);

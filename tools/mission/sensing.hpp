@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "sensors/capture.hpp"
@@ -29,13 +31,17 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
 /// Collects the sweeps of all LIDARs while the vehicle flies.
 class ProfileScanner {
  public:
-  ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars, std::uint64_t seed);
+  /// `rate_hz`: of every LIDAR; nothing: each its own.
+  ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars, std::uint64_t seed,
+                 std::optional<double> rate_hz = std::nullopt);
 
   /// After every tick. Sweeps that are due begin only while `is_on`; those begun are finished.
   void tick(const Flight& flight, bool is_on);
 
   /// Finished sweeps in the order in which they ended.
   const std::vector<LidarScan>& scans() const { return scans_; }
+  /// Those since the last call, which it forgets.
+  std::vector<LidarScan> take_scans() { return std::exchange(scans_, {}); }
 
  private:
   /// A sweep that has begun: the believed pose of its first beam, and the true ones since.
@@ -50,6 +56,7 @@ class ProfileScanner {
   const RayScene& scene_;
   std::span<const LidarModel> lidars_;
   std::uint64_t seed_;
+  std::optional<double> rate_hz_;
   std::vector<Sweep>
       sweeps_;  // under way, oldest first; a LIDAR may begin one before its last ends
   std::vector<LidarScan> scans_;
