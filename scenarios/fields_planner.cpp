@@ -291,6 +291,9 @@ void fields(const Keys& key, OracleConfig& c) {
 }
 
 void fields(const Keys& key, TourConfig& c) {
+  using enum TourCost;
+  key("cost", c.cost, {{metres, "metres"}, {seconds, "seconds"}},
+      "What a tour is to be short in; seconds: with turns, and counting frames in flight.");
   key("detail_m", c.detail_m, {0.005, 1}, "Edge of the voxels that are to hold a point.");
   key("lattice_step_m", c.lattice_step_m, {0, 100},
       "Between views of the lattice; 0: a quarter of the cameras' range, more in a large box.");
@@ -303,6 +306,7 @@ void fields(const Keys& key, TourConfig& c) {
       "What a metre has to bring: as a share of what the mean metre would of a tour twice as long "
       "as the sides of the structure's box together.");
   key("metres_per_view", c.metres_per_view, {0, 100}, "A view costs as much as these.");
+  key("seconds_per_view", c.seconds_per_view, {0, 100}, "Likewise, where seconds count.");
   key("iterations", c.iterations, {0, 1e5}, "Of each search.");
   key("views_per_replan", c.views_per_replan, {1, 1e6}, "Flown before the next tour.");
   key("replan_below", c.replan_below, {0, 1},

@@ -42,6 +42,7 @@ struct PlannerModel {
   Box3 workspace_m;
   Box3 navigation_m;
   NoFly no_fly;
+  TravelConfig travel = {};
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
   std::optional<GimbalConfig> gimbal;  // of the cameras that have one

@@ -60,6 +60,12 @@ struct Score {
   double distance = 1.0;     // exp(-lambda d)
 };
 
+/// What a vehicle that does not stop at a view is to pass after it.
+struct Onward {
+  ViewPose pose;
+  bool is_view = true;  // false: a point on the way to the next one
+};
+
 /// A chosen view and why.
 struct Decision {
   ViewPose view;
@@ -70,7 +76,7 @@ struct Decision {
   Score score = {};
   std::vector<Vec3> via_world_m = {};  // points on the way there; none: straight
   int plan_view = 1;                   // its number in its plan: from 2 on nothing was decided
-  std::vector<ViewPose> then = {};     // meant to be flown after it, by straight legs; not in files
+  std::vector<Onward> then = {};       // meant to be flown after it, by straight legs; not in files
 };
 
 /// A sampled view with what became of it.

@@ -56,6 +56,18 @@ struct NoFly {
   bool allows_leg(const Vec3& from_world_m, const Vec3& to_world_m) const;
 };
 
+/// How fast the vehicle flies and turns, as far as a planner counts on it.
+struct TravelConfig {
+  bool passes_views = false;  // else it stops at each
+  double speed_m_s = 2.0;
+  double acceleration_m_s2 = 1.0;
+  double yaw_rate_rad_s = deg_to_rad(60.0);
+  double yaw_acceleration_rad_s2 = deg_to_rad(120.0);
+
+  /// From rest to rest.
+  double turn_s(double turn_rad) const;
+};
+
 /// Asked several times a second by what may take long: throws to end it. Empty: nobody asks.
 using HeedStop = std::function<void()>;
 inline void heed(const HeedStop& stop) {

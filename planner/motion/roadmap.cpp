@@ -53,6 +53,15 @@ Roadmap::Node Roadmap::add(const Vec3& p_world_m) {
   return static_cast<Node>(p_world_m_.size() - 1);
 }
 
+Roadmap::Node Roadmap::nearest(const Vec3& p_world_m) const {
+  const Vec3 steps = (p_world_m - p_world_m_[1]) / step_m_;
+  std::array<std::int32_t, 3> at;
+  for (int a = 0; a < 3; ++a) {
+    at[a] = std::clamp(static_cast<std::int32_t>(std::lround(steps[a])), 0, lattice_size_[a] - 1);
+  }
+  return static_cast<Node>(1 + (at[2] * lattice_size_[1] + at[1]) * lattice_size_[0] + at[0]);
+}
+
 void Roadmap::link(Node a, Node b) {
   if (is_open_[b] == 0 || !space_->is_line_open(*grid_, p_world_m_[a], p_world_m_[b])) return;
   legs_[a].push_back(b);

@@ -31,6 +31,8 @@ class Roadmap {
   std::size_t size() const { return p_world_m_.size(); }
   static constexpr Node here() { return 0; }
   const Vec3& p_world_m(Node node) const { return p_world_m_[node]; }
+  /// The node of the lattice, open or not, that is nearest to a point in the navigation box.
+  Node nearest(const Vec3& p_world_m) const;
   /// Ascending, without here().
   std::span<const Node> reachable() const { return reachable_; }
 

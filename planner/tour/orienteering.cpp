@@ -4,14 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/tour/tour_search.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 namespace {
-
-constexpr double kLeast = 1e-6;  // less is rounding
-// a view that brings this share of its cost may be put in: the search may find it a neighbour
-constexpr double kTolerance = 0.7;
 
 /// A tour while it is changed. Copied, it is a state to return to.
 class OpenTour {
@@ -77,6 +74,13 @@ class OpenTour {
   }
 
   void shorten() { waypoints_.shorten(); }
+
+  void remove_some(Rng& rng) {
+    for (const std::uint32_t view :
+         views_to_remove(chosen_, problem_->node, waypoints_, problem_->row_m, rng)) {
+      remove(view);
+    }
+  }
 
  private:
   std::uint32_t node_of(std::uint32_t view) const { return problem_->node[view]; }
@@ -158,42 +162,14 @@ double ExpectedCover::loss_without(std::uint32_t view) const {
 
 OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::uint32_t> from,
                        int iterations, std::uint64_t seed) {
-  constexpr double kHot_m = 0.6;
-  constexpr double kCold_m = 0.01;
-  OpenTour current(problem);
-  for (const std::uint32_t view : from) current.insert(view);
-  current.complete(1.0, {});
-  current.drop_unpaid();
-  current.shorten();
-  OpenTour best = current;
-  double current_worth = current.worth();
-  double best_worth = current_worth;
-  OpenTour trial = current;
-  for (int i = 0; i < iterations && !current.chosen().empty(); ++i) {
-    Rng rng(seed, Stream::tour_search, i);
-    trial = current;
-    for (const std::uint32_t view :
-         views_to_remove(trial.chosen(), problem.node, trial.waypoints(), problem.row_m, rng)) {
-      trial.remove(view);
-    }
-    const double metres_per_view = 0.1 * std::pow(20.0, rng.uniform());
-    trial.complete(metres_per_view, perturbation_weights(problem.observations.size(), rng));
-    trial.drop_unpaid();
-    double worth = trial.worth();
-    if (worth > best_worth + kLeast) {
-      trial.shorten();
-      worth = trial.worth();
-    }
-    const double heat = problem.cost_per_m * kHot_m *
-                        std::pow(kCold_m / kHot_m, i / static_cast<double>(iterations));
-    if (current_worth - worth >= -heat * std::log(1.0 - rng.uniform())) continue;
-    std::swap(current, trial);
-    current_worth = worth;
-    if (current_worth <= best_worth + kLeast) continue;
-    best = current;
-    best_worth = current_worth;
-  }
-  return best.made();
+  OpenTour tour(problem);
+  for (const std::uint32_t view : from) tour.insert(view);
+  tour.complete(1.0, {});
+  tour.drop_unpaid();
+  tour.shorten();
+  return search(std::move(tour), problem.observations.size(), iterations,
+                {.price = problem.cost_per_m}, seed)
+      .made();
 }
 
 }  // namespace gnbv

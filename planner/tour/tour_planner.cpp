@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/core/belief.hpp"
 #include "planner/motion/paths.hpp"
 #include "planner/tour/gains.hpp"
+#include "planner/tour/timed_tour.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -80,6 +82,37 @@ void observe_nodes(const Step& step) {
   state.visibility.follow(step.scene(), state.roadmap, {}, 0, threads, step.stop);
 }
 
+/// The tour in seconds, with what frames on the way see.
+std::vector<std::uint32_t> solve_in_seconds(const Step& step, TourProblem& task,
+                                            std::span<const std::uint32_t> from,
+                                            std::uint64_t seed) {
+  const TourState& state = step.state;
+  const auto headings = static_cast<std::size_t>(state.visibility.headings());
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> view_of(state.roadmap.size() * headings, kNone);
+  std::vector<ViewPose> poses;
+  for (std::uint32_t view = 0; view < task.views.size(); ++view) {
+    const auto& [node, pose] = task.views[view];
+    poses.push_back(pose);
+    view_of[node * headings + static_cast<std::size_t>(state.visibility.heading_near(pose))] = view;
+  }
+  TimedProblem problem{
+      .views = &task.problem, .poses = poses, .start = step.current, .travel = &step.model.travel};
+  const bool has_frames =
+      std::any_of(step.model.cameras.begin(), step.model.cameras.end(),
+                  [](const CameraModel& camera) { return camera.config.rate_hz > 0.0; });
+  if (has_frames) {
+    problem.view_at = [&](const ViewPose& pose) -> std::optional<std::uint32_t> {
+      const Roadmap::Node node = state.roadmap.nearest(pose.p_world_m);
+      const std::uint32_t view =
+          view_of[node * headings + static_cast<std::size_t>(state.visibility.heading_near(pose))];
+      return view == kNone ? std::nullopt : std::optional(view);
+    };
+  }
+  task.problem.metres_per_view = step.config.seconds_per_view;
+  return solve(problem, from, step.config.iterations, seed);
+}
+
 /// Whether some view pays at what a metre costs now: then the tour is that of the best views.
 bool solve_tour(const Step& step) {
   TourState& state = step.state;
@@ -97,9 +130,12 @@ bool solve_tour(const Step& step) {
   }
   const std::uint64_t seed =
       random_bits({step.model.seed, Stream::tour_search, state.searches++, 0});
-  const OrienteeringTour found = solve(task.problem, from, step.config.iterations, seed);
+  const std::vector<std::uint32_t> found =
+      step.config.cost == TourCost::seconds
+          ? solve_in_seconds(step, task, from, seed)
+          : solve(task.problem, from, step.config.iterations, seed).views;
   state.tour.clear();
-  for (const std::uint32_t view : found.views) state.tour.push_back(task.views[view]);
+  for (const std::uint32_t view : found) state.tour.push_back(task.views[view]);
   return !state.tour.empty();
 }
 
@@ -178,6 +214,21 @@ FoundPath path_to(const Step& step, const ViewChecker& checker, const TourView& 
   return {{}, std::move(points_m)};
 }
 
+/// The next views of the tour, from a node on, with the points between them.
+std::vector<Onward> way_onward(const Step& step, Roadmap::Node from) {
+  std::vector<Onward> onward;
+  for (const TourView& view :
+       std::span(step.state.tour).first(std::min(kViewsAhead, step.state.tour.size()))) {
+    if (!std::isfinite(step.state.roadmap.row_m(from, step.stop)[view.node])) break;
+    for (const Vec3& via_m : step.state.roadmap.via_world_m(from, view.node)) {
+      onward.push_back({{via_m, view.pose.yaw_rad}, false});
+    }
+    onward.push_back({view.pose});
+    from = view.node;
+  }
+  return onward;
+}
+
 /// Hands out the tour's next view that can be flown to; those before it are rejected.
 bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
   TourState& state = step.state;
@@ -201,8 +252,7 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
         state.cells);
     candidate.score = {.value = gain, .information = gain};
     choose(plan, plan.candidates.size() - 1, left, left);
-    const std::size_t ahead = std::min(kViewsAhead, state.tour.size());
-    for (std::size_t i = 0; i < ahead; ++i) plan.views.back().then.push_back(state.tour[i].pose);
+    plan.views.back().then = way_onward(step, view.node);
     state.at = view.node;
     ++state.views_since_replan;
     return true;
@@ -272,7 +322,7 @@ Plan TourPlanner::replay(std::span<const Decision> recorded, const Belief& belie
                          const History& history, const ViewPose& current, Scratch& scratch) {
   Plan plan = next(belief, history, current, scratch);
   need_as_recorded(plan, recorded, history.decisions.size());
-  std::vector<ViewPose> then = plan.has_view() ? plan.next().then : std::vector<ViewPose>();
+  std::vector<Onward> then = plan.has_view() ? plan.next().then : std::vector<Onward>();
   plan.views = {recorded.front()};
   plan.views.front().then = std::move(then);
   return plan;

@@ -67,6 +67,15 @@ ViewPose VisibilityCache::pose(const Vec3& p_world_m, int heading) const {
   return {p_world_m, 2.0 * kPi * (heading % yaws_) / yaws_, pitches_rad_[heading / yaws_]};
 }
 
+int VisibilityCache::heading_near(const ViewPose& pose) const {
+  const auto yaw = static_cast<int>(std::lround(pose.yaw_rad * yaws_ / (2.0 * kPi)));
+  const auto nearest =
+      std::min_element(pitches_rad_.begin(), pitches_rad_.end(), [&](double a, double b) {
+        return std::abs(a - pose.gimbal_pitch_rad) < std::abs(b - pose.gimbal_pitch_rad);
+      });
+  return (yaw % yaws_ + yaws_) % yaws_ + yaws_ * static_cast<int>(nearest - pitches_rad_.begin());
+}
+
 std::vector<SeenPatch> VisibilityCache::observe(const TourScene& scene, const ViewPose& view,
                                                 const Blocks& near, PatchViewer& viewer) const {
   std::vector<SeenPatch> seen;

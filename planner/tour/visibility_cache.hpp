@@ -22,6 +22,8 @@ class VisibilityCache {
   /// Ways to look from a node: each yaw with each pitch.
   int headings() const { return yaws_ * static_cast<int>(pitches_rad_.size()); }
   ViewPose pose(const Vec3& p_world_m, int heading) const;
+  /// The heading nearest to that of the pose.
+  int heading_near(const ViewPose& pose) const;
 
   /// Observes from every reachable node that it never did, and again from `most_again` of those
   /// around which the surface changed since: from `first`, then where it changed most.

@@ -15,9 +15,9 @@ constexpr double kBrakingShare = 0.8;
 constexpr double kVelocity_s = 0.25;
 constexpr double kTurn_s = 0.15;
 // The last pose is approached with a speed of the distance over this.
-constexpr double kApproach_s = 0.8;
-constexpr double kAtRest_m = 0.01;
-constexpr double kAtRest_m_s = 0.02;
+constexpr double kApproach_s = 0.5;
+constexpr double kAtRest_m = 0.03;
+constexpr double kAtRest_m_s = 0.05;
 constexpr double kTurned_rad = deg_to_rad(0.5);
 
 /// The acceleration that leads to a change of velocity by `by`: proportional to it, within the

@@ -37,8 +37,15 @@ std::vector<CameraModel> camera_models(const Scenario& scenario) {
 }
 
 PlannerModel planner_model(const Scenario& scenario) {
-  return make_model(scenario.planner, scenario.workspace_m, scenario.cameras, scenario.lidars,
-                    scenario.seed, no_fly_of(scenario));
+  PlannerModel model = make_model(scenario.planner, scenario.workspace_m, scenario.cameras,
+                                  scenario.lidars, scenario.seed, no_fly_of(scenario));
+  const RestToRest::Limits turn = turn_limits(scenario.guidance, scenario.vehicle);
+  model.travel = {.passes_views = scenario.guidance.trajectory == Trajectory::smooth,
+                  .speed_m_s = scenario.guidance.path_speed_m_s,
+                  .acceleration_m_s2 = scenario.guidance.acceleration_m_s2,
+                  .yaw_rate_rad_s = turn.speed,
+                  .yaw_acceleration_rad_s2 = turn.acceleration};
+  return model;
 }
 
 Mission::Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,

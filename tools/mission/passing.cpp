@@ -18,11 +18,14 @@ Reference reference_now(const Mission& m) {
 /// m/s2.
 bool is_way_free(const Mission& m, const Vec3& from_m, std::span<const Reference> path) {
   constexpr std::size_t kChord = 5;
+  constexpr double kOvershoot_m = 0.2;  // beyond the navigation box, of a curve
   const FreeSpace space = free_space(m);
+  const Vec3 slack_m = Vec3::Constant(kOvershoot_m);
+  const Box3 box_m(space.navigation_m.min() - slack_m, space.navigation_m.max() + slack_m);
   Vec3 at_m = from_m;
   for (std::size_t i = kChord - 1; i < path.size() + kChord - 1; i += kChord) {
     const Vec3& to_m = path[std::min(i, path.size() - 1)].p_world_m;
-    if (!space.is_leg_free(at_m, to_m)) return false;
+    if (!box_m.contains(to_m) || !space.is_leg_free(at_m, to_m)) return false;
     at_m = to_m;
   }
   return true;
@@ -41,47 +44,73 @@ LegEnd fly_on(Mission& m, std::size_t poses, const std::function<void(const Flig
                   });
 }
 
-/// A way past the view that may be flown: on to the views after it, to a stop at it, or that
+/// Takes up the smooth way from here past the poses, if it may be flown.
+bool take_way(Mission& m, std::span<const PassedPose> poses, double speed_m_s) {
+  const Reference from = reference_now(m);
+  auto path = smooth_path(from, poses, speed_m_s, m.scenario.guidance, m.scenario.vehicle);
+  if (path.empty() || !is_way_free(m, from.p_world_m, path)) return false;
+  m.path = std::move(path);
+  m.path_at = 0;
+  return true;
+}
+
+/// A way past the view: on to as many of the poses after it as may be, to a stop at it, or that
 /// slowly.
 bool find_way(Mission& m, const Decision& next) {
-  const Reference from = reference_now(m);
   std::vector<PassedPose> poses;
-  for (const Vec3& via_m : next.via_world_m) {
-    poses.push_back({{via_m, next.view.yaw_rad}, false});
-  }
+  for (const Vec3& via_m : next.via_world_m) poses.push_back({{via_m, next.view.yaw_rad}, false});
   poses.push_back({next.view});
   const std::size_t to_view = poses.size();
-  for (const ViewPose& view : next.then) poses.push_back({view});
+  for (const Onward& onward : next.then) poses.push_back({onward.pose, onward.is_view});
   const double speed_m_s = m.scenario.guidance.path_speed_m_s;
-  const auto try_way = [&](std::size_t count, double share) {
-    auto path = smooth_path(from, std::span(poses).first(count), share * speed_m_s,
-                            m.scenario.guidance, m.scenario.vehicle);
-    if (path.empty() || !is_way_free(m, from.p_world_m, path)) return false;
-    m.path = std::move(path);
-    m.path_at = 0;
-    return true;
-  };
-  return try_way(poses.size(), 1.0) || try_way(to_view, 1.0) || try_way(to_view, 0.5);
+  for (std::size_t count = poses.size(); count >= to_view; --count) {
+    if (take_way(m, std::span(poses).first(count), speed_m_s)) return true;
+  }
+  return take_way(m, std::span(poses).first(to_view), 0.5 * speed_m_s);
+}
+
+/// To a stop: straight on if that is clear, else along the way at hand, which is.
+std::optional<Termination> stop(Mission& m, const std::function<void(const Flight&)>& on_tick) {
+  const Reference now = reference_now(m);
+  const double speed_m_s = now.v_world_m_s.norm();
+  if (speed_m_s > 0.0) {
+    const double braking_m = 0.7 * speed_m_s * speed_m_s / m.scenario.guidance.acceleration_m_s2;
+    const ViewPose at = {now.p_world_m + braking_m / speed_m_s * now.v_world_m_s, now.yaw_rad};
+    take_way(m, {{{at, false}}}, m.scenario.guidance.path_speed_m_s);
+  }
+  return over_after(m, fly_on(m, kAll, on_tick));
+}
+
+std::optional<Termination> fly_legs(Mission& m, const Decision& next,
+                                    const std::function<void(const Flight&)>& on_tick) {
+  m.path.clear();
+  m.path_at = 0;
+  std::vector<ViewPose> legs;
+  for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad});
+  legs.push_back(next.view);
+  for (const ViewPose& leg : legs) {
+    const auto over = fly_leg(m, leg, m.scenario.guidance.path_speed_m_s, on_tick);
+    if (over) return over;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
-  if (!find_way(m, next)) {
-    if (const auto over = over_after(m, fly_on(m, kAll, on_tick))) return over;
-    m.path.clear();
-    m.path_at = 0;
-    std::vector<ViewPose> legs;
-    for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad, 0.0});
-    legs.push_back(next.view);
-    for (const ViewPose& leg : legs) {
-      if (const auto over = fly_leg(m, leg, m.scenario.guidance.path_speed_m_s, on_tick)) {
-        return over;
-      }
-    }
-    return std::nullopt;
+  bool has_way = find_way(m, next);
+  if (getenv("GNBV_DBG"))
+    fprintf(stderr, "DBG t=%.1f then=%zu via=%zu %d\n", time_s(*m.flight), next.then.size(),
+            next.via_world_m.size(), has_way);
+  if (!has_way && m.path_at > 0) {
+    if (const auto over = stop(m, on_tick)) return over;
+    has_way = find_way(m, next);
+    if (getenv("GNBV_DBG"))
+      fprintf(stderr, "DBG stopped t=%.1f then=%zu via=%zu %d\n", time_s(*m.flight),
+              next.then.size(), next.via_world_m.size(), has_way);
   }
+  if (!has_way) return fly_legs(m, next, on_tick);
   const LegEnd end = fly_on(m, next.via_world_m.size() + 1, on_tick);
   if (const auto over = over_after(m, end)) return over;
   const Isometry T = m.flight->estimate().T_world_body;
