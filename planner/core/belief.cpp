@@ -90,6 +90,7 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 
 void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
                       Belief& belief) {
+  if (scans.empty()) return;
   belief.ranged.add(insert_scans(model, scans, scratch, belief), model.belief.cloud.profile_leaf_m);
 }
 

@@ -18,7 +18,7 @@ struct TourConfig {
   bool explore = true;       // without a profile: where no surface pays, looks for space unseen
   double price = 0.09;       // what a metre has to bring, of ExpectedSurface::voxels_a_metre()
   double metres_per_view = 0.3;  // what a view costs beside its way
-  double seconds_per_view = 0.3;
+  double seconds_per_view = 1.0;
   int iterations = 250;  // of the search, a replan
   int views_per_replan = 6;
   double replan_below = 0.5;  // replans early when a view brings less than this share of its gain

@@ -229,6 +229,29 @@ std::vector<Onward> way_onward(const Step& step, Roadmap::Node from) {
   return onward;
 }
 
+/// Whether a view of a tour in seconds is no longer worth the way by it: frames on the way to the
+/// views before it have seen what it was for.
+bool passes_over(const Step& step, const TourView& view) {
+  TourState& state = step.state;
+  if (step.config.cost != TourCost::seconds || state.tour.empty()) return false;
+  double gain = 0.0;
+  for (const SeenPatch& seen :
+       state.visibility.observe(step.scene(), view.pose, step.scratch.threads)) {
+    const Patch& patch = state.patches[seen.patch];
+    gain += patch.missing * state.calibration.yield().share(patch, seen.incidence);
+  }
+  const auto leg_s = [&](const ViewPose& a, const ViewPose& b) {
+    const TravelConfig& travel = step.model.travel;
+    return std::max((a.p_world_m - b.p_world_m).norm() / travel.speed_m_s,
+                    travel.turn_s(wrap_angle_rad(b.yaw_rad - a.yaw_rad)));
+  };
+  const ViewPose& next = state.tour.front().pose;
+  const double detour_s =
+      leg_s(step.current, view.pose) + leg_s(view.pose, next) - leg_s(step.current, next);
+  const double price = 0.5 * state.cost_factor * step.cost_per_m();
+  return gain < price * (detour_s + step.config.seconds_per_view);
+}
+
 /// Hands out the tour's next view that can be flown to; those before it are rejected.
 bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
   TourState& state = step.state;
@@ -243,6 +266,10 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
       if (path.rejected == Rejection::path_blocked) state.roadmap.forget_ways();
       state.refused.push_back(view.pose);
       state.is_due = true;
+      continue;
+    }
+    if (passes_over(step, view)) {
+      plan.candidates.pop_back();
       continue;
     }
     candidate.path_m = checker.length_m(path, view.pose);

@@ -15,6 +15,7 @@ constexpr std::uint8_t kViewsPerItem = 8;  // the search chooses among so many o
 // patches that the search weighs one by one: more of them double its time and gain nothing, since
 // neighbours are seen by the same views
 constexpr std::size_t kMostItems = 12000;
+constexpr std::size_t kMostTimedItems = 4000;  // a search in seconds asks more often
 
 /// Gives the patches that matter their numbers and weights; all others kNoItem.
 std::vector<std::uint32_t> choose_items(const TourConfig& config, const TourState& state,
@@ -24,8 +25,8 @@ std::vector<std::uint32_t> choose_items(const TourConfig& config, const TourStat
   for (PatchId id = 0; id < state.patches.size(); ++id) {
     if (yield.face_on_gain(state.patches[id]) >= kLeastVoxels) active.push_back(id);
   }
-  const std::size_t one_in =
-      std::max<std::size_t>(1, (active.size() + kMostItems - 1) / kMostItems);
+  const std::size_t most = config.cost == TourCost::seconds ? kMostTimedItems : kMostItems;
+  const std::size_t one_in = std::max<std::size_t>(1, (active.size() + most - 1) / most);
   std::vector<std::uint32_t> item_of(state.patches.size(), kNoItem);
   for (const PatchId id : active) {
     if (one_in > 1 && mix_bits(id) % one_in != 0) continue;

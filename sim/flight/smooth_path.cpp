@@ -10,7 +10,9 @@ namespace gnbv {
 namespace {
 
 // Braking is planned with this share of the acceleration: the rest corrects.
-constexpr double kBrakingShare = 0.8;
+constexpr double kBrakingShare = 0.9;
+constexpr double kCornerShare = 1.0;
+constexpr double kPassShare = 0.95;
 // Velocity follows what is wanted of it with these time constants, where the limits allow.
 constexpr double kVelocity_s = 0.25;
 constexpr double kTurn_s = 0.15;
@@ -57,16 +59,20 @@ class Way {
   bool is_over() const { return now_.passed == poses_.size(); }
 
   void step() {
+    turns_off_ = may_turn_off();
     move_straight();
     turn();
     const bool is_last = now_.passed + 1 == poses_.size();
-    if (is_last ? is_at_rest() : is_passed()) ++now_.passed;
+    if (is_last ? is_at_rest() : is_passed()) {
+      ++now_.passed;
+    }
   }
 
  private:
   const ViewPose& target() const { return poses_[now_.passed].pose; }
   double off_yaw_rad() const { return wrap_angle_rad(target().yaw_rad - now_.yaw_rad); }
-  Vec3 to_target_m() const { return target().p_world_m - now_.p_world_m; }
+  Vec3 to_m(std::size_t pose) const { return poses_[pose].pose.p_world_m - now_.p_world_m; }
+  Vec3 to_target_m() const { return to_m(now_.passed); }
 
   bool is_passed() const {
     return to_target_m().norm() <= config_.pass_distance_m &&
@@ -84,42 +90,74 @@ class Way {
     return turn_s(std::max(0.0, off_rad - config_.pass_yaw_rad), turn_);
   }
 
-  /// At which speed each pose may be passed, from the last one back.
+  /// How each pose may be passed, from the last one back.
   void find_speeds() {
-    pass_m_s_.assign(poses_.size(), 0.0);
+    const double acceleration = kCornerShare * config_.acceleration_m_s2;
+    corners_.assign(poses_.size(), {});
+    out_.assign(poses_.size(), Vec3::Zero());
     for (std::size_t i = poses_.size() - 1; i-- > 0;) {
       const Vec3 before_m = i == 0 ? now_.p_world_m : poses_[i - 1].pose.p_world_m;
       const Vec3 in_m = poses_[i].pose.p_world_m - before_m;
       const Vec3 out_m = poses_[i + 1].pose.p_world_m - poses_[i].pose.p_world_m;
       const double way_m = out_m.norm();
-      double speed_m_s = braking_speed(way_m, braking_, pass_m_s_[i + 1]);
-      if (in_m.norm() > 0.0 && way_m > 0.0) {
-        const double cosine = std::clamp(in_m.normalized().dot(out_m / way_m), -1.0, 1.0);
-        const double half_tangent = std::sqrt((1.0 - cosine) / std::max(1e-9, 1.0 + cosine));
-        speed_m_s =
-            std::min(speed_m_s, std::sqrt(config_.acceleration_m_s2 * config_.pass_distance_m /
-                                          std::max(1e-6, half_tangent)));
-      }
+      Corner& corner = corners_[i];
+      corner.speed_m_s =
+          std::min(speed_m_s_, braking_speed(way_m, braking_, corners_[i + 1].speed_m_s));
       const double turn_time = turn_time_s(poses_[i].pose.yaw_rad, poses_[i + 1]);
       if (turn_time > 0.0) {
         // braking evenly from twice the mean speed
-        speed_m_s = std::min(speed_m_s, 2.0 * (way_m + config_.pass_distance_m) / turn_time);
+        corner.speed_m_s =
+            std::min(corner.speed_m_s, 2.0 * (way_m + config_.pass_distance_m) / turn_time);
       }
-      pass_m_s_[i] = std::min(speed_m_s, speed_m_s_);
+      if (way_m > 0.0) out_[i] = out_m / way_m;
+      if (in_m.norm() == 0.0 || way_m == 0.0) continue;
+      const double cosine = std::clamp(in_m.normalized().dot(out_m / way_m), -1.0, 1.0);
+      const double sine = std::max(0.02, std::sqrt(0.5 * (1.0 - cosine)));  // of half the turn
+      const double room_m =
+          std::min({2.0 * config_.pass_distance_m / sine, 0.8 * in_m.norm(), 0.8 * way_m});
+      corner.speed_m_s = std::min(corner.speed_m_s, std::sqrt(acceleration * room_m / sine));
+      corner.begins_m = corner.speed_m_s * (corner.speed_m_s * sine / acceleration +
+                                            0.5 * config_.acceleration_m_s2 / config_.jerk_m_s3);
     }
   }
 
-  Vec3 wanted_v_m_s() const {
+  /// Whether the vehicle may turn off to the pose after the next one: with the acceleration that
+  /// takes, it still comes near enough to the next, turned as it has to be.
+  bool may_turn_off() const {
+    if (now_.passed + 1 == poses_.size()) return false;
     const Vec3 to_m = to_target_m();
-    const double left_m = to_m.norm();
-    if (left_m == 0.0) return Vec3::Zero();
-    const Vec3 direction = to_m / left_m;
-    const double pass_m_s = pass_m_s_[now_.passed];
-    double speed_m_s = std::min(speed_along(direction, speed_m_s_, vehicle_),
-                                braking_speed(left_m, braking_, pass_m_s));
-    if (pass_m_s == 0.0) speed_m_s = std::min(speed_m_s, left_m / kApproach_s);
     const double turn_time = turn_time_s(now_.yaw_rad, poses_[now_.passed]);
-    if (turn_time > 0.0) speed_m_s = std::min(speed_m_s, left_m / turn_time);
+    const Vec3& v = now_.v_world_m_s;
+    const Vec3 change = v.norm() * out_[now_.passed] - v;
+    const double acceleration = kCornerShare * config_.acceleration_m_s2;
+    const double change_s = change.norm() / acceleration;
+    if (change_s == 0.0) return false;
+    const double lag_s = 0.5 * config_.acceleration_m_s2 / config_.jerk_m_s3;
+    constexpr int kSamples = 8;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double time_s = change_s * i / kSamples;
+      if (lag_s + time_s < turn_time) continue;
+      const Vec3 off_m = to_m - (lag_s + time_s) * v - 0.5 * time_s * time_s / change_s * change;
+      if (off_m.norm() <= kPassShare * config_.pass_distance_m) return true;
+    }
+    return false;
+  }
+
+  Vec3 wanted_v_m_s() const {
+    const std::size_t pose = now_.passed + (turns_off_ ? 1 : 0);
+    const Vec3 ahead_m = to_m(pose);
+    const double left_m = ahead_m.norm();
+    if (left_m == 0.0) return Vec3::Zero();
+    const Vec3 direction = ahead_m / left_m;
+    const Corner& corner = corners_[pose];
+    double speed_m_s = std::min(
+        speed_along(direction, speed_m_s_, vehicle_),
+        braking_speed(std::max(0.0, left_m - corner.begins_m), braking_, corner.speed_m_s));
+    if (corner.speed_m_s == 0.0) speed_m_s = std::min(speed_m_s, left_m / kApproach_s);
+    if (!turns_off_) {
+      const double turn_time = turn_time_s(now_.yaw_rad, poses_[pose]);
+      if (turn_time > 0.0) speed_m_s = std::min(speed_m_s, left_m / turn_time);
+    }
     return speed_m_s * direction;
   }
 
@@ -166,7 +204,13 @@ class Way {
   const VehicleConfig& vehicle_;
   RestToRest::Limits turn_;
   AxisLimits braking_;
-  std::vector<double> pass_m_s_;  // of each pose
+  struct Corner {
+    double speed_m_s = 0.0;
+    double begins_m = 0.0;  // before the pose
+  };
+  std::vector<Corner> corners_;  // at the poses
+  std::vector<Vec3> out_;        // directions from each pose to the next
+  bool turns_off_ = false;       // to the pose after the next
   Reference now_;
 };
 

@@ -48,6 +48,7 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   std::vector<DepthFrame> pending;
   const auto look = [&](const Flight& flight) {
     m.scanner.tick(flight, m.scenario.planner.profiling.flight_rate_hz > 0.0);
+    integrate_sweeps(m.model, m.scanner.take_scans(), m.scratch, m.out.belief);
     integrate_view(m.model, pending, m.scratch, m.out.belief);
     pending.clear();
     turn_gimbal(m, next.view);
@@ -105,7 +106,6 @@ std::vector<DepthFrame> sense(Mission& m) {
 
 void integrate(Mission& m, std::span<const DepthFrame> frames) {
   const ScopeTimer timer(m.view_wall.map_s);
-  integrate_sweeps(m.model, m.scanner.take_scans(), m.scratch, m.out.belief);
   integrate_view(m.model, frames, m.scratch, m.out.belief);
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <variant>
 
 #include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
@@ -33,15 +34,34 @@ bool is_way_free(const Mission& m, const Vec3& from_m, std::span<const Reference
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-LegEnd fly_on(Mission& m, std::size_t poses, const std::function<void(const Flight&)>& on_tick) {
-  return fly_path(*m.flight, m.path, m.path_at, poses, m.scenario.vehicle,
-                  [&](const Flight& flight) {
-                    keep_track(m);
-                    const Vec3& to_m = m.path[m.path_at - 1].p_world_m;
-                    m.out.path_error.add((m.last_p_world_m - to_m).norm());
-                    on_tick(flight);
-                    return goes_on(m);
-                  });
+/// How far ahead the way is watched: a little more than it takes to brake.
+constexpr double kWatched_s = 2.5;
+constexpr std::int64_t kTicksPerWatch = kTicksPerSecond / 5;
+
+enum class WayEnd { passed, blocked };
+
+/// Flies on until so many poses are passed; what ends the mission meanwhile. `blocked`: frames on
+/// the way have shown that it is not clear.
+std::variant<WayEnd, Termination> fly_on(Mission& m, std::size_t poses,
+                                         const std::function<void(const Flight&)>& on_tick,
+                                         bool is_watched = true) {
+  bool is_blocked = false;
+  const auto watch = [&](const Flight& flight) {
+    keep_track(m);
+    const Reference& now = m.path[m.path_at - 1];
+    m.out.path_error.add((m.last_p_world_m - now.p_world_m).norm());
+    on_tick(flight);
+    if (is_watched && flight.tick() % kTicksPerWatch == 0) {
+      const auto ahead = std::span(m.path).subspan(m.path_at);
+      const auto count = static_cast<std::size_t>(kWatched_s / kReference_s);
+      is_blocked = !is_way_free(m, now.p_world_m, ahead.first(std::min(count, ahead.size())));
+    }
+    return goes_on(m) && !is_blocked;
+  };
+  const LegEnd end = fly_path(*m.flight, m.path, m.path_at, poses, m.scenario.vehicle, watch);
+  if (end == LegEnd::stopped && is_blocked && goes_on(m)) return WayEnd::blocked;
+  if (const auto over = over_after(m, end)) return *over;
+  return WayEnd::passed;
 }
 
 /// Takes up the smooth way from here past the poses, if it may be flown.
@@ -69,16 +89,30 @@ bool find_way(Mission& m, const Decision& next) {
   return take_way(m, std::span(poses).first(to_view), 0.5 * speed_m_s);
 }
 
-/// To a stop: straight on if that is clear, else along the way at hand, which is.
-std::optional<Termination> stop(Mission& m, const std::function<void(const Flight&)>& on_tick) {
+/// To a stop, straight on; along the way at hand where that is clear and the straight is not.
+std::optional<Termination> stop(Mission& m, bool is_way_clear,
+                                const std::function<void(const Flight&)>& on_tick) {
   const Reference now = reference_now(m);
   const double speed_m_s = now.v_world_m_s.norm();
-  if (speed_m_s > 0.0) {
-    const double braking_m = 0.7 * speed_m_s * speed_m_s / m.scenario.guidance.acceleration_m_s2;
-    const ViewPose at = {now.p_world_m + braking_m / speed_m_s * now.v_world_m_s, now.yaw_rad};
-    take_way(m, {{{at, false}}}, m.scenario.guidance.path_speed_m_s);
+  if (speed_m_s == 0.0) return std::nullopt;
+  const double braking_m = 0.7 * speed_m_s * speed_m_s / m.scenario.guidance.acceleration_m_s2;
+  const PassedPose at = {{now.p_world_m + braking_m / speed_m_s * now.v_world_m_s, now.yaw_rad},
+                         false};
+  auto path = smooth_path(now, {&at, 1}, m.scenario.guidance.path_speed_m_s, m.scenario.guidance,
+                          m.scenario.vehicle);
+  if (!is_way_clear || is_way_free(m, now.p_world_m, path)) {
+    m.path = std::move(path);
+    m.path_at = 0;
   }
-  return over_after(m, fly_on(m, kAll, on_tick));
+  const auto end = fly_on(m, kAll, on_tick, false);
+  const auto* const over = std::get_if<Termination>(&end);
+  return over != nullptr ? std::optional(*over) : std::nullopt;
+}
+
+/// Where the vehicle believes to be, for the planner.
+void set_current(Mission& m, double gimbal_pitch_rad) {
+  const Isometry T = m.flight->estimate().T_world_body;
+  m.current = {T.translation(), yaw_of(T), gimbal_pitch_rad};
 }
 
 std::optional<Termination> fly_legs(Mission& m, const Decision& next,
@@ -100,21 +134,18 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
   bool has_way = find_way(m, next);
-  if (getenv("GNBV_DBG"))
-    fprintf(stderr, "DBG t=%.1f then=%zu via=%zu %d\n", time_s(*m.flight), next.then.size(),
-            next.via_world_m.size(), has_way);
   if (!has_way && m.path_at > 0) {
-    if (const auto over = stop(m, on_tick)) return over;
+    if (const auto over = stop(m, true, on_tick)) return over;
     has_way = find_way(m, next);
-    if (getenv("GNBV_DBG"))
-      fprintf(stderr, "DBG stopped t=%.1f then=%zu via=%zu %d\n", time_s(*m.flight),
-              next.then.size(), next.via_world_m.size(), has_way);
   }
   if (!has_way) return fly_legs(m, next, on_tick);
-  const LegEnd end = fly_on(m, next.via_world_m.size() + 1, on_tick);
-  if (const auto over = over_after(m, end)) return over;
-  const Isometry T = m.flight->estimate().T_world_body;
-  m.current = {T.translation(), yaw_of(T), next.view.gimbal_pitch_rad};
+  const auto end = fly_on(m, next.via_world_m.size() + 1, on_tick);
+  if (const auto* const over = std::get_if<Termination>(&end)) return *over;
+  if (std::get<WayEnd>(end) == WayEnd::blocked) {
+    if (const auto over = stop(m, false, on_tick)) return over;
+    ++m.out.legs_timed_out;
+  }
+  set_current(m, next.view.gimbal_pitch_rad);
   return std::nullopt;
 }
 
