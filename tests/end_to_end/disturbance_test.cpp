@@ -123,6 +123,40 @@ TEST(ReturnHome, LeadsAroundANoFlyBox) {
   }
 }
 
+/// As the mission has it, who knows longer ways home; and on half the battery not for long.
+TEST(Battery, BringsHomeFromEveryViewOfAMissionThatReturns) {
+  const double battery_wh = 0.8 * Flown(smoke({"vehicle.power.return_home=true"})).result.energy_wh;
+  Flown flown(smoke(
+      {"vehicle.power.return_home=true", fmt::format("vehicle.power.battery_wh={}", battery_wh)}));
+  double before_wh = *flown.result.profile_end_wh;
+  for (const ViewMark& mark : view_marks(flown.scenario, flown.result.views)) {
+    EXPECT_TRUE(mark.on_one_battery) << *mark.energy_wh;
+    EXPECT_GT(*mark.energy_wh, before_wh);
+    before_wh = *mark.energy_wh;
+  }
+  EXPECT_LT(before_wh, flown.result.energy_wh);
+  flown.scenario.vehicle.power.battery_wh *= 0.6;
+  const std::vector<ViewMark> on_less = view_marks(flown.scenario, flown.result.views);
+  EXPECT_TRUE(on_less.front().on_one_battery);
+  EXPECT_FALSE(on_less.back().on_one_battery);
+  // hover, straight home and down, from where the last view was
+  const double needed_wh =
+      before_wh +
+      leg_energy_wh(
+          flown.scenario.vehicle, flown.scenario.guidance, flown.result.views.back().decision.view,
+          {flown.result.start.p_world_m, flown.result.views.back().decision.view.yaw_rad}) +
+      landing_energy_wh(flown.scenario.vehicle, flown.result.start.p_world_m.z());
+  for (const double more : {-1e-9, 1e-9}) {
+    flown.scenario.vehicle.power.battery_wh = (needed_wh + more) / 0.8;
+    EXPECT_EQ(view_marks(flown.scenario, flown.result.views).back().on_one_battery, more > 0.0);
+  }
+  // a battery that is never empty is the usual one
+  flown.result.views.back().energy_wh = 0.8 * kUsualBattery_wh;
+  flown.scenario.vehicle.power.battery_wh = 0.0;
+  EXPECT_FALSE(view_marks(flown.scenario, flown.result.views).back().on_one_battery);
+  EXPECT_TRUE(view_marks(flown.scenario, flown.result.views).front().on_one_battery);
+}
+
 TEST(Battery, ThatIsLargeEnoughEndsNoMission) {
   const Flown flown(smoke({"vehicle.power.return_home=true", "vehicle.power.battery_wh=100"}));
   EXPECT_EQ(flown.result.termination, Termination::max_iterations);

@@ -118,6 +118,7 @@ void record(Mission& m, const Decision& decision) {
        .straight_m = m.out.distance.straight_m,
        .flown_m = m.out.distance.flown_m,
        .time_s = time_s(*m.flight),
+       .energy_wh = m.flight->energy_wh(),
        .wall = m.view_wall});
   m.out.wall.sense_s += m.view_wall.sense_s;
   m.out.wall.map_s += m.view_wall.map_s;
@@ -192,6 +193,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
                           const MissionInputs& inputs, int threads) {
   Mission m(scenario, world, scene, inputs, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
+  m.out.profile_end_wh = m.flight->energy_wh();
   Decision view = {.view = m.out.start};
   while (true) {
     if (const auto over = fly_to_view(m, view)) return finish(m, *over);
