@@ -422,9 +422,10 @@ TextTable effort_table(const PaperTable& paper, Effort effort,
       "{} from {} on until the cloud first covered so much of its ceiling at 0.05 m: median, "
       "where a mission that did not get there{} counts as more than all others; how many got "
       "there; mean, where it counts as the budget; an oracle of few metres or seconds flies once "
-      "for each share, and the least counts",
+      "for each share, and the least counts{}",
       words.unit, words.from,
-      budget ? fmt::format(" within the budget of {:g} {}", *budget, words.short_unit) : "")};
+      budget ? fmt::format(" within the budget of {:g} {}", *budget, words.short_unit) : "",
+      effort == Effort::wh_with_profile ? "; on one battery: with the way home" : "")};
   return table;
 }
 

@@ -67,13 +67,11 @@ std::vector<SizedCoverage> score_more(const MoreSizes& more, const OwnCloud& own
   return all;
 }
 
-/// Where it is known of all. The first view is at home: who is there on one battery could have
-/// landed after the profile, too.
+/// Where it is known of all.
 void add_energy(const ScoredCloud& cloud, CoverageCurve& curve) {
   const auto has_energy = [](const ViewMark& view) { return view.energy_wh.has_value(); };
-  if (!cloud.before.profile_end_wh || cloud.views.empty()) return;
-  if (!std::ranges::all_of(cloud.views, has_energy)) return;
-  curve.energy_wh = {*cloud.before.profile_end_wh};
+  if (cloud.views.empty() || !std::ranges::all_of(cloud.views, has_energy)) return;
+  curve.energy_wh = {*cloud.views.front().energy_wh};
   curve.on_one_battery = {cloud.views.front().on_one_battery};
   for (const ViewMark& view : cloud.views) {
     curve.energy_wh.push_back(*view.energy_wh);

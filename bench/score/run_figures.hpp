@@ -21,8 +21,10 @@ struct CoverageCurve {
   std::vector<double> metres;
   std::vector<double> seconds;
   std::vector<std::array<double, 3>> accurate = {};  // coverage; none of runs of older versions
-  std::vector<double> energy_wh = {};                // drawn since the mission began; likewise
-  std::vector<bool> on_one_battery = {};  // and so far it lasts, with the way home; likewise
+  /// Drawn since the mission began, and whether that is on one battery with the way home; entry 0
+  /// has the first view's, which is at home. None of runs of older versions.
+  std::vector<double> energy_wh = {};
+  std::vector<bool> on_one_battery = {};
 
   std::size_t views() const { return coverage.empty() ? 0 : coverage.size() - 1; }
 };
@@ -32,7 +34,6 @@ struct BeforeViews {
   double profile_m = 0.0;      // planned legs of the profile, its approach included
   double transfer_m = 0.0;     // planned, from the end of the profile to the first view
   double profile_end_s = 0.0;  // simulated, since the mission began
-  std::optional<double> profile_end_wh = {};  // likewise; not of runs of older versions
 };
 
 /// What a mission spends, the abscissa of a curve: views, metres and seconds as CoverageCurve has

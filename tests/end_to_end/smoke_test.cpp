@@ -69,7 +69,7 @@ TEST(SmokeMission, WhatExactSensorsCoverIsAccurate) {
   }
   // a record without energy, as older versions wrote it, has none of a score
   ASSERT_EQ(score.curve.energy_wh.size(), score.curve.coverage.size());
-  EXPECT_EQ(score.curve.energy_wh.front(), f.result.profile_end_wh);
+  EXPECT_EQ(score.curve.energy_wh.front(), f.result.views.front().energy_wh);
   EXPECT_TRUE(std::ranges::is_sorted(score.curve.energy_wh));
   ScoredCloud older = scored_cloud(f.scenario, f.result);
   older.views.back().energy_wh.reset();

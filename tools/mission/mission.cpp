@@ -193,7 +193,6 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
                           const MissionInputs& inputs, int threads) {
   Mission m(scenario, world, scene, inputs, threads);
   if (const auto over = fly_profile(m)) return finish(m, *over);
-  m.out.profile_end_wh = m.flight->energy_wh();
   Decision view = {.view = m.out.start};
   while (true) {
     if (const auto over = fly_to_view(m, view)) return finish(m, *over);

@@ -116,8 +116,7 @@ Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
                           .profile_points = profile.size(),
                           .before = {.profile_m = *summary.profile_m,
                                      .transfer_m = *summary.transfer_m,
-                                     .profile_end_s = *summary.profile_end_s,
-                                     .profile_end_wh = summary.profile_end_wh},
+                                     .profile_end_s = *summary.profile_end_s},
                           .views = view_marks(scenario, views)};
   need_matching(run, cloud, profile, *summary.iterations);
   need_views_of_summary(run / kIterationsFile, summary, views);

@@ -66,7 +66,7 @@ void visit_columns(View& view, Columns columns, Column&& column) {
 
 std::string text_of(const auto& value) { return fmt::format("{}", value); }
 std::string text_of(const Sampler& sampler) { return std::string(traits_of(sampler).name); }
-std::string text_of(const std::optional<double>& known) { return text_of(known.value_or(0.0)); }
+std::string text_of(const std::optional<double>& value) { return value ? text_of(*value) : ""; }
 std::string text_of(const Wall<const double>& wall) { return fmt::format("{:.6f}", wall.s); }
 /// "x:y:z;x:y:z"; an empty cell for none.
 std::string text_of(const std::vector<Vec3>& points_m) {
@@ -134,7 +134,8 @@ struct Row {
     value = to_number(next_part(rest, ','), place, name);
   }
   void operator()(std::string_view name, std::optional<double>& value) {
-    (*this)(name, value.emplace());
+    const std::string_view cell = next_part(rest, ',');
+    if (!cell.empty()) value = to_number(cell, place, name);
   }
   void operator()(std::string_view name, int& count) {
     count = to_count(next_part(rest, ','), place, name);

@@ -29,8 +29,7 @@ ScoredCloud scored_cloud(const Scenario& scenario, const MissionResult& result) 
           .profile_points = result.profile_points_world_m.size(),
           .before = {.profile_m = result.distance.profile_m,
                      .transfer_m = result.distance.transfer_m,
-                     .profile_end_s = result.profile_end_s,
-                     .profile_end_wh = result.profile_end_wh},
+                     .profile_end_s = result.profile_end_s},
           .views = view_marks(scenario, result.views)};
 }
 

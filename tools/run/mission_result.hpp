@@ -119,7 +119,6 @@ struct MissionResult {
   std::vector<TrajectorySample> trajectory;  // true motion at 10 Hz
   MissionDistances distance;
   double profile_end_s = 0.0;
-  std::optional<double> profile_end_wh = {};  // drawn by then
   double flight_time_s = 0.0;
   double energy_wh = 0.0;
   VehicleState final_state;  // true, when the mission ended: after a collision, where and how fast

@@ -83,7 +83,6 @@ RunSummary read_summary(const fs::path& run) {
   from.read_if_there(summary.iterations, "/iterations");
   from.read_if_there(summary.profile_end_s, "/profile_end_s");
   from.read_if_there(summary.views_begin_s, "/views_begin_s");
-  if (from.has("/profile_end_wh")) from.read(summary.profile_end_wh, "/profile_end_wh");
   from.read_if_there(summary.profile_m, "/distance_m/profile");
   from.read_if_there(summary.transfer_m, "/distance_m/transfer");
   from.read_if_there(summary.result_sha256, "/result_sha256");

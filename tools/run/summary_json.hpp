@@ -29,11 +29,10 @@ struct RunSummary {
   std::uint64_t schema = 0;
   std::optional<std::string> termination = {};
   std::optional<std::uint64_t> iterations = {};
-  std::optional<double> profile_end_s = {};   // since the start of the mission,
-  std::optional<double> views_begin_s = {};   // as is where the planned views begin
-  std::optional<double> profile_end_wh = {};  // likewise
-  std::optional<double> profile_m = {};       // planned legs: of the profile,
-  std::optional<double> transfer_m = {};      // and from there to the first view
+  std::optional<double> profile_end_s = {};  // since the start of the mission,
+  std::optional<double> views_begin_s = {};  // as is where the planned views begin
+  std::optional<double> profile_m = {};      // planned legs: of the profile,
+  std::optional<double> transfer_m = {};     // and from there to the first view
   std::optional<std::string> result_sha256 = {};
   std::optional<std::string> views_sha256 = {};  // of iterations.csv
 };

@@ -134,6 +134,9 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
 BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
                       const std::string& command) {
   TextTable text = comparison_table(paper, runs.rows);
+  // people read narrow tables, machines one wide one
+  const bool is_one = options.format == "csv" || options.format == "json";
+  if (!is_one) text = with_columns_of(text, take_off_table(paper, runs.rows), kSharedColumns);
   const bool has_exact = std::ranges::count(runs.rows, kExact, &MissionRow::setting) > 0;
   if (has_exact) {
     text.notes.emplace_back(
@@ -153,9 +156,6 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
   if (!is_papers("papers_setting")) text.notes.emplace_back(kOtherSetting);
   text.notes.insert(text.notes.end(), runs.notes.begin(), runs.notes.end());
   if (!command.empty()) text.notes.push_back(command);
-  // people read narrow tables, machines one wide one
-  const bool is_one = options.format == "csv" || options.format == "json";
-  if (!is_one) text = with_columns_of(text, take_off_table(paper, runs.rows), kSharedColumns);
   std::vector<TextTable> tables = {std::move(text)};
   for (const Effort effort : std::span(kEfforts).subspan(1)) {  // but views
     TextTable more = effort_table(paper, effort, runs.rows);

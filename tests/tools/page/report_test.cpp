@@ -344,7 +344,8 @@ TEST_F(ReportTest, PlotsHaveTheRunsAndTheMeanOfTheirSeeds) {
   const Report some = report_of({one, two});
   const auto spent = [&](std::size_t run) {
     std::vector<Numbers> all;
-    for (const Json& list : data_of(some)["runs"][run]["views"]["from_take_off"]) {
+    const Json data = data_of(some);
+    for (const Json& list : data["runs"][run]["views"]["from_take_off"]) {
       all.push_back(test::numbers(list, bytes_of(some)));
     }
     return all;

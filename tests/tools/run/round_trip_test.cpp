@@ -66,6 +66,8 @@ TEST(RoundTrip, IterationsCsv) {
     write_file_atomically(csv, iterations_csv(views, {.gimbal = gimbal, .energy = true}));
     EXPECT_EQ(read_view_records(csv).at(1).energy_wh, views[1].energy_wh);
   }
+  write_file_atomically(csv, iterations_csv(read, {.energy = true}));
+  EXPECT_FALSE(read_view_records(csv).at(1).energy_wh) << "and is not nothing";
   ViewRecord turned = odd_view(0);
   turned.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
   write_file_atomically(csv, iterations_csv(std::vector{turned}, Columns{.gimbal = true}));
@@ -209,7 +211,6 @@ struct MadeMission {
     result.distance = {
         .profile_m = 1.0 / 3.0, .transfer_m = 2.0 / 7.0, .straight_m = 1e-9, .flown_m = 2.0 / 3.0};
     result.profile_end_s = 0.1 + 0.2;
-    result.profile_end_wh = 4.0 / 17.0;
     result.flight_time_s = 1e20;
     result.energy_wh = 5e-324;
     result.entropy_after_profile_nat = result.belief.grid.total_entropy_nat() + 0.5;
@@ -251,7 +252,6 @@ TEST(RoundTrip, RunDirectory) {
   EXPECT_EQ(summary.schema, kSummarySchema);
   EXPECT_EQ(summary.termination, "no_valid_view");
   EXPECT_EQ(summary.iterations, 2U);
-  EXPECT_EQ(summary.profile_end_wh, made.result.profile_end_wh);
   ASSERT_TRUE(record.figures.has_value());
   // every number that a comparison reads is one of summary.json, where no two are the same
   const RunFigures& f = *record.figures;
