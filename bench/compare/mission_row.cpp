@@ -50,21 +50,27 @@ void add_after(std::string_view prefix, const RunFigures& run, std::size_t views
 /// What is reached beyond a budget is not reached; the budget is that of the views, whatever was
 /// spent before them.
 void add_efforts(const RunFigures& run, double ceiling, Figures& figures) {
+  const CoverageCurve& curve = run.curve;
   for (std::size_t i = 0; i < kReachShares.size(); ++i) {
-    const auto spent = effort_to_reach(run.curve, run.before, kReachShares[i] * ceiling);
-    const auto add = [&](Effort effort, double EffortSpent::*counted, std::string_view behind,
-                         double EffortSpent::*told) {
-      const double budget = run.budgets[static_cast<std::size_t>(effort)];
-      const bool is_within = spent && (budget <= 0.0 || (*spent).*counted <= budget);
-      figures[fmt::format("{}_to_{}{}", kEffortNames[static_cast<std::size_t>(effort)],
-                          kReachNames[i], behind)] =
-          is_within ? (*spent).*told : std::numeric_limits<double>::infinity();
+    const auto reached = entry_that_covers(curve, kReachShares[i] * ceiling);
+    const auto add = [&](Effort effort, Effort judged) {
+      if (!is_known(curve, effort)) return;
+      const double budget = run.budgets[static_cast<std::size_t>(judged)];
+      const bool is_within =
+          reached && (budget <= 0.0 || effort_at(curve, run.before, judged, *reached) <= budget);
+      figures[figure_to_reach(effort, kReachNames[i])] =
+          is_within ? effort_at(curve, run.before, effort, *reached)
+                    : std::numeric_limits<double>::infinity();
+      if (effort != Effort::wh_with_profile) return;
+      figures[fmt::format("{}{}", kOneBatteryTo, kReachNames[i])] =
+          is_within && curve.on_one_battery[*reached] ? 1.0 : 0.0;
     };
-    add(Effort::views, &EffortSpent::views, "", &EffortSpent::views);
-    add(Effort::metres, &EffortSpent::metres, "", &EffortSpent::metres);
-    add(Effort::metres, &EffortSpent::metres, kWithProfile, &EffortSpent::metres_with_profile);
-    add(Effort::seconds, &EffortSpent::seconds, "", &EffortSpent::seconds);
-    add(Effort::seconds, &EffortSpent::seconds, kWithProfile, &EffortSpent::seconds_with_profile);
+    add(Effort::views, Effort::views);
+    add(Effort::metres, Effort::metres);
+    add(Effort::metres_with_profile, Effort::metres);
+    add(Effort::seconds, Effort::seconds);
+    add(Effort::seconds_with_profile, Effort::seconds);
+    add(Effort::wh_with_profile, Effort::seconds);
   }
 }
 
@@ -75,15 +81,18 @@ void add_budgets(const RunFigures& run, Figures& figures) {
     figures[fmt::format("mean_coverage_{}", kEffortNames[i])] =
         area_under_coverage(run.curve, static_cast<Effort>(i), 0, run.budgets[i]);
   }
+  const auto& [views, metres, seconds] = run.budgets;
   const BeforeViews& before = run.before;
-  const auto add = [&](Effort effort, double spent_before) {
-    const auto i = static_cast<std::size_t>(effort);
-    if (run.budgets[i] <= 0.0) return;
-    figures[fmt::format("budget_{}{}", kEffortNames[i], kWithProfile)] =
-        spent_before + run.budgets[i];
-  };
-  add(Effort::metres, before.profile_m + before.transfer_m);
-  add(Effort::seconds, before.profile_end_s);
+  if (metres > 0.0) {
+    figures["budget_metres_with_profile"] = before.profile_m + before.transfer_m + metres;
+  }
+  if (seconds > 0.0) {
+    const double all_s = before.profile_end_s + seconds;
+    figures["budget_seconds_with_profile"] = all_s;
+    if (run.flight_time_s > 0.0) {
+      figures["budget_wh_with_profile"] = all_s * run.energy_wh / run.flight_time_s;
+    }
+  }
 }
 
 Figures figures_of(const RunFigures& run) {
@@ -121,6 +130,14 @@ Figures figures_of(const RunFigures& run) {
 }
 
 }  // namespace
+
+std::string figure_to_reach(Effort effort, std::string_view share) {
+  std::string_view unit = kEffortNames[static_cast<std::size_t>(effort)];
+  constexpr std::string_view kBehind = "_with_profile";
+  const bool is_behind = unit.ends_with(kBehind);
+  if (is_behind) unit.remove_suffix(kBehind.size());
+  return fmt::format("{}_to_{}{}", unit, share, is_behind ? kBehind : "");
+}
 
 std::optional<double> MissionRow::find(std::string_view name) const {
   const auto at = figures.find(name);

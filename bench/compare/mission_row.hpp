@@ -41,18 +41,22 @@ constexpr std::string_view kAtEnd = "";
 constexpr std::string_view kCut = "cut_";        // after as many views as the paper's row
 constexpr std::string_view kWithin = "within_";  // after as many views as the scenario's budget
 constexpr std::string_view kProfile = "profile_";
-constexpr std::string_view kWithProfile = "_with_profile";  // behind an effort
+
+/// Of what was spent until a share of kReachNames was reached: "metres_to_0.95_with_profile".
+std::string figure_to_reach(Effort effort, std::string_view share);
+constexpr std::string_view kOneBatteryTo = "one_battery_to_";  // and the share
 
 /// A run as a row, named by its own scenario and utility. Figures: iterations, distance_m, time_min
 /// and coverage_0.05 (and so on for each size), with each prefix, kCut where the paper has a row of
 /// this utility in this scenario and the run took more views; the
 /// same as accurate_coverage_*; raw_coverage_*; noisy (1 or 0); entropy_reduction,
 /// density_points_per_voxel, flown_m, flight_time_s, energy_wh, wall_s, f_0.05, chamfer_m,
-/// area_samples; budget_* (of metres and seconds also kWithProfile) and mean_coverage_* by
-/// kEffortNames. With a ceiling: ceiling_* (of the
-/// cloud) and physical_ceiling_* by size, and by kEffortNames and kReachNames metres_to_0.95 and
-/// the like, of metres and seconds also kWithProfile. Who knows the scenario adds (1 or 0)
-/// seeds_key_noise, papers_structure and papers_setting.
+/// area_samples; budget_* by kEffortNames (from take-off: what was spent before, and the budget; of
+/// energy what the mission draws by then at its mean power) and mean_coverage_* by the first of
+/// them. With a ceiling: ceiling_* (of the cloud) and physical_ceiling_* by size, and by
+/// kReachNames figure_to_reach() of all efforts and kOneBatteryTo (1: reached, by a view on one
+/// battery as view_marks() has it; 0). Who knows the scenario adds (1 or 0) seeds_key_noise,
+/// papers_structure and papers_setting.
 MissionRow mission_row(const RunFigures& run);
 void add_ceiling(const RunFigures& run, const Ceiling& ceiling, MissionRow& row);
 

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "bench/compare/paper_groups.hpp"
 #include "bench/compare/statistics.hpp"
 #include "bench/score/surface_reference.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {
@@ -267,7 +270,8 @@ std::vector<MissionRow> least_efforts(const PaperGroup& group,
       if (other.method != row.method || other.seed != row.seed || !is_of_share) continue;
       for (auto& [name, value] : row.figures) {
         if (name.find("_to_") == std::string::npos) continue;
-        value = std::min(value, other.find(name).value_or(value));
+        const double others = other.find(name).value_or(value);
+        value = name.starts_with(kOneBatteryTo) ? std::max(value, others) : std::min(value, others);
       }
     }
   }
@@ -291,6 +295,88 @@ TableCell effort_cell(std::span<const MissionRow> missions, std::string_view nam
   return {fmt::format("{} ({:.0f} of {}){}", median ? grouped(*median, 1) : "-", there,
                       efforts.size(), std::isfinite(mean) ? ", " + grouped(mean, 1) : ""),
           {median, there}};
+}
+
+/// How many got there on one battery, of those of which it is known of all.
+TableCell battery_cell(std::span<const MissionRow> missions, std::string_view name) {
+  double there = 0.0;
+  for (const MissionRow& mission : missions) {
+    const auto is_there = mission.find(name);
+    if (!is_there) return {};
+    there += *is_there;
+  }
+  return {fmt::format("{:.0f} of {}", there, missions.size()), {there}};
+}
+
+struct EffortWords {
+  const char* title;
+  const char* unit;
+  const char* short_unit;
+  const char* from;
+};
+
+EffortWords words_of(Effort effort) {
+  switch (effort) {
+    case Effort::views:
+      return {"Views", "views", "views", "the first view"};
+    case Effort::metres:
+      return {"Metres", "metres", "m", "the first view"};
+    case Effort::seconds:
+      return {"Seconds", "seconds", "s", "the end of the profile"};
+    case Effort::metres_with_profile:
+      return {"Metres", "metres", "m", "take-off"};
+    case Effort::seconds_with_profile:
+      return {"Seconds", "seconds", "s", "take-off"};
+    case Effort::wh_with_profile:
+      return {"Wh", "Wh", "Wh", "take-off"};
+  }
+  GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
+}
+
+std::string budget_of(Effort effort) {
+  return fmt::format("budget_{}", kEffortNames[static_cast<std::size_t>(effort)]);
+}
+
+/// A column a share and effort, behind its head the words given with it; without those that nobody
+/// knows.
+TextTable effort_columns(const PaperTable& paper,
+                         const std::vector<std::pair<Effort, const char*>>& efforts,
+                         std::span<const std::string_view> shares,
+                         std::span<const MissionRow> missions) {
+  TextTable table{.columns = {{"Utility", "utility"}, {"Row", "row"}}};
+  std::vector<std::vector<MissionRow>> groups;
+  for (const PaperGroup& group : whole_groups(paper, missions)) {
+    if (!group.missions[0]->find("ceiling_0.05")) continue;
+    table.rows.push_back({{group.name}, {"ours"}});
+    const bool is_plain = group.setting.empty();
+    groups.push_back(least_efforts(group, is_plain ? missions : std::span<const MissionRow>()));
+  }
+  const auto add = [&](TableColumn column, const auto& cell_of) {
+    std::vector<TableCell> cells;
+    for (const auto& group : groups) cells.push_back(cell_of(group));
+    if (std::ranges::count(cells, TableCell{}) == std::ssize(cells)) return;
+    table.columns.push_back(std::move(column));
+    for (std::size_t i = 0; i < cells.size(); ++i) table.rows[i].push_back(std::move(cells[i]));
+  };
+  for (const std::string_view share : shares) {
+    for (const auto& [effort, behind] : efforts) {
+      const std::string percent(share.substr(2));
+      const std::string head = *behind == '\0' ? "" : "To ";
+      const std::string_view name = kEffortNames[static_cast<std::size_t>(effort)];
+      add({fmt::format("{}{}%{}", head, percent, behind), fmt::format("{}_to_{}", name, percent),
+           ColumnKind::counted},
+          [&](const auto& group) {
+            return effort_cell(group, figure_to_reach(effort, share), budget_of(effort));
+          });
+      if (effort != Effort::wh_with_profile) continue;
+      add({fmt::format("{}{}% on one battery", head, percent),
+           fmt::format("{}{}", kOneBatteryTo, percent), ColumnKind::number},
+          [&](const auto& group) {
+            return battery_cell(group, fmt::format("{}{}", kOneBatteryTo, share));
+          });
+    }
+  }
+  return table;
 }
 
 }  // namespace
@@ -326,35 +412,35 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
 
 TextTable effort_table(const PaperTable& paper, Effort effort,
                        std::span<const MissionRow> missions) {
-  const bool is_metres = effort == Effort::metres;
-  const std::string unit(kEffortNames[static_cast<std::size_t>(effort)]);
-  const std::string budget_name = "budget_" + unit;
-  TextTable table{.title = fmt::format("{} to reach the ceiling", is_metres ? "Metres" : "Seconds"),
-                  .columns = {{"Utility", "utility"}, {"Row", "row"}}};
-  for (const std::string_view share : kReachNames) {
-    const std::string percent(share.substr(2));
-    table.columns.push_back(
-        {percent + "%", fmt::format("{}_to_{}", unit, percent), ColumnKind::counted});
-  }
-  for (const PaperGroup& group : whole_groups(paper, missions)) {
-    if (!group.missions[0]->find("ceiling_0.05")) continue;
-    Row& row = table.rows.emplace_back(Row{{group.name}, {"ours"}});
-    const bool is_plain = group.setting.empty();
-    const std::vector<MissionRow> least =
-        least_efforts(group, is_plain ? missions : std::span<const MissionRow>());
-    for (const std::string_view share : kReachNames) {
-      row.push_back(effort_cell(least, fmt::format("{}_to_{}", unit, share), budget_name));
-    }
-  }
+  const EffortWords words = words_of(effort);
+  TextTable table = effort_columns(paper, {{effort, ""}}, kReachNames, missions);
+  table.title = fmt::format("{}{} to reach the ceiling", words.title,
+                            is_from_take_off(effort) ? " from take-off" : "");
   if (table.rows.empty()) return table;
-  const auto budget = missions[0].find(budget_name);
+  const auto budget = is_from_take_off(effort) ? std::nullopt : missions[0].find(budget_of(effort));
   table.notes = {fmt::format(
-      "{} from the {} on until the cloud first covered so much of its ceiling at 0.05 m: median, "
+      "{} from {} on until the cloud first covered so much of its ceiling at 0.05 m: median, "
       "where a mission that did not get there{} counts as more than all others; how many got "
       "there; mean, where it counts as the budget; an oracle of few metres or seconds flies once "
-      "for each share, and the least counts",
-      unit, is_metres ? "first view" : "end of the profile",
-      budget ? fmt::format(" within the budget of {:g} {}", *budget, is_metres ? "m" : "s") : "")};
+      "for each share, and the least counts{}",
+      words.unit, words.from,
+      budget ? fmt::format(" within the budget of {:g} {}", *budget, words.short_unit) : "",
+      effort == Effort::wh_with_profile ? "; on one battery: with the way home" : "")};
+  return table;
+}
+
+TextTable take_off_table(const PaperTable& paper, std::span<const MissionRow> missions) {
+  constexpr std::array<std::string_view, 1> kShare = {"0.95"};
+  TextTable table = effort_columns(paper,
+                                   {{Effort::seconds_with_profile, " (s)"},
+                                    {Effort::metres_with_profile, " (m)"},
+                                    {Effort::wh_with_profile, " (Wh)"}},
+                                   kShare, missions);
+  if (table.columns.size() > kSharedColumns) {
+    table.notes = {
+        "to 95%: from take-off, with the profile, until the cloud first covered 95 % of its "
+        "ceiling at 0.05 m: median, how many got there, mean; on one battery: with the way home"};
+  }
   return table;
 }
 

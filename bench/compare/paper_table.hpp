@@ -21,14 +21,18 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
 /// Columns that effort_table() shares with comparison_table(): utility, row.
 constexpr std::size_t kSharedColumns = 2;
 
-/// What each method spends until its cloud holds most of what a cloud can hold: metres from the
-/// first view on, or seconds from the end of the profile on. A row for each of ours in
-/// comparison_table(), named alike: for kReachShares of the ceiling the median, how many missions
-/// got there within the budget, and the mean in which the others have spent it; of a mission and
-/// those of its method and seed that were flown for one share (kForShare) the least. Where half of
-/// them did not get there, there is no median. Without a ceiling, or missions, no rows.
+/// What each method spends until its cloud holds most of what a cloud can hold. A row for each of
+/// ours in comparison_table(), named alike: for kReachShares of the ceiling the median, how many
+/// missions got there within the budget, and the mean in which the others have spent it; of a
+/// mission and those of its method and seed that were flown for one share (kForShare) the least.
+/// Where half of them did not get there, there is no median. Of energy also how many of all got
+/// there on one battery. Without a ceiling, or missions, no rows; no column of what nobody knows.
 TextTable effort_table(const PaperTable& paper, Effort effort,
                        std::span<const MissionRow> missions);
+
+/// The same of one share, 95 %: seconds, metres and energy from take-off, to stand beside the
+/// paper's columns.
+TextTable take_off_table(const PaperTable& paper, std::span<const MissionRow> missions);
 
 /// The mission's row as a small aligned table; below it, if the mission's setting is the paper's,
 /// the paper's row for its scenario, method and structure, where it has one. For a terminal of

@@ -33,15 +33,18 @@ std::vector<RunMetric> metrics_of(std::span<const MissionRow> missions) {
       {"flight time (s)", "flight_time_s", 1.0, kLess, 1, kTold},
   };
   for (const std::string_view share : kReachNames) {
-    const auto add = [&](std::string_view unit, std::string_view behind, std::string_view words) {
-      metrics.push_back({fmt::format("{} to {} % of ceiling{}", unit, share.substr(2), words),
-                         fmt::format("{}_to_{}{}", unit, share, behind), 1.0, kLess, 1, true,
-                         fmt::format("budget_{}{}", unit, behind)});
+    const auto add = [&](std::string_view unit, Effort effort, std::string_view from) {
+      metrics.push_back({fmt::format("{} to {} % of ceiling{}", unit, share.substr(2), from),
+                         figure_to_reach(effort, share), 1.0, kLess, 1, true,
+                         fmt::format("budget_{}", kEffortNames[static_cast<std::size_t>(effort)])});
     };
-    add("views", "", "");
-    add("metres", "", "");
-    add("metres", kWithProfile, ", with profile");
-    add("seconds", kWithProfile, ", with profile");
+    add("views", Effort::views, "");
+    add("metres", Effort::metres, "");
+    add("metres", Effort::metres_with_profile, ", from take-off");
+    add("seconds", Effort::seconds_with_profile, ", from take-off");
+    add("Wh", Effort::wh_with_profile, ", from take-off");
+    metrics.push_back({fmt::format("to {} % of ceiling on one battery (%)", share.substr(2)),
+                       fmt::format("{}{}", kOneBatteryTo, share), 100.0});
   }
   std::vector<std::string> sizes;
   for (const MissionRow& mission : missions) {

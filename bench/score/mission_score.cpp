@@ -67,6 +67,18 @@ std::vector<SizedCoverage> score_more(const MoreSizes& more, const OwnCloud& own
   return all;
 }
 
+/// Where it is known of all.
+void add_energy(const ScoredCloud& cloud, CoverageCurve& curve) {
+  const auto has_energy = [](const ViewMark& view) { return view.energy_wh.has_value(); };
+  if (cloud.views.empty() || !std::ranges::all_of(cloud.views, has_energy)) return;
+  curve.energy_wh = {*cloud.views.front().energy_wh};
+  curve.on_one_battery = {cloud.views.front().on_one_battery};
+  for (const ViewMark& view : cloud.views) {
+    curve.energy_wh.push_back(*view.energy_wh);
+    curve.on_one_battery.push_back(view.on_one_battery);
+  }
+}
+
 }  // namespace
 
 MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scene,
@@ -95,6 +107,7 @@ MissionScore score_cloud(const SurfaceReference& reference, const RayScene& scen
     score.curve.metres.push_back(cloud.views[i].straight_m);
     score.curve.seconds.push_back(cloud.views[i].time_s - cloud.before.profile_end_s);
   }
+  add_energy(cloud, score.curve);
   const OwnCloud judged = part_in(cloud.region_m, own);
   score.distances =
       cloud_distances(judged.distances_m, own.points_world_m, reference.samples_world_m, threads);

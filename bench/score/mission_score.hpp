@@ -17,8 +17,10 @@ namespace gnbv {
 /// Where a mission was after a view.
 struct ViewMark {
   std::size_t cloud_points = 0;
-  double straight_m = 0.0;  // from the first view on
-  double time_s = 0.0;      // since the start of the mission
+  double straight_m = 0.0;               // from the first view on
+  double time_s = 0.0;                   // since the start of the mission
+  std::optional<double> energy_wh = {};  // drawn since then, if it is known
+  bool on_one_battery = false;           // and so far it lasts, with the way home
 };
 
 /// All of a mission that its score depends on; a run directory holds it, too.

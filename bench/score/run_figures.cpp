@@ -7,7 +7,12 @@
 
 namespace gnbv {
 
-double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry) {
+bool is_known(const CoverageCurve& curve, Effort effort) {
+  return effort != Effort::wh_with_profile || !curve.energy_wh.empty();
+}
+
+double effort_at(const CoverageCurve& curve, const BeforeViews& before, Effort effort,
+                 std::size_t entry) {
   switch (effort) {
     case Effort::views:
       return static_cast<double>(entry);
@@ -15,6 +20,12 @@ double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry) {
       return curve.metres[entry];
     case Effort::seconds:
       return curve.seconds[entry];
+    case Effort::metres_with_profile:  // after the profile alone without the way on from it
+      return before.profile_m + (entry == 0 ? 0.0 : before.transfer_m) + curve.metres[entry];
+    case Effort::seconds_with_profile:
+      return before.profile_end_s + curve.seconds[entry];
+    case Effort::wh_with_profile:
+      return curve.energy_wh.at(entry);
   }
   GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
 }
@@ -29,7 +40,7 @@ double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_
   double area = 0.0;
   double left = 0.0;
   for (std::size_t i = 1; i < entries && left < budget; ++i) {
-    const double right = effort_at(curve, effort, i);
+    const double right = effort_at(curve, {}, effort, i);
     GNBV_CHECK(right >= left, "effort goes back from {} to {} at view {}", left, right, i);
     area += (std::min(right, budget) - left) * curve.coverage[i - 1][size];
     left = right;
@@ -42,8 +53,7 @@ double seconds_of_views(const CoverageCurve& curve, std::size_t entry) {
   return entry == 0 ? 0.0 : curve.seconds[entry] - curve.seconds[1];
 }
 
-std::optional<EffortSpent> effort_to_reach(const CoverageCurve& curve, const BeforeViews& before,
-                                           double coverage) {
+std::optional<std::size_t> entry_that_covers(const CoverageCurve& curve, double coverage) {
   const auto& shares = curve.coverage;
   GNBV_CHECK(!shares.empty() && curve.metres.size() == shares.size() &&
                  curve.seconds.size() == shares.size(),
@@ -52,13 +62,7 @@ std::optional<EffortSpent> effort_to_reach(const CoverageCurve& curve, const Bef
   const auto reached = std::find_if(shares.begin(), shares.end(),
                                     [&](const auto& by_size) { return by_size[0] >= coverage; });
   if (reached == shares.end()) return std::nullopt;
-  const auto entry = static_cast<std::size_t>(reached - shares.begin());
-  const double transfer_m = entry == 0 ? 0.0 : before.transfer_m;
-  return EffortSpent{.views = static_cast<double>(entry),
-                     .metres = curve.metres[entry],
-                     .metres_with_profile = before.profile_m + transfer_m + curve.metres[entry],
-                     .seconds = curve.seconds[entry],
-                     .seconds_with_profile = before.profile_end_s + curve.seconds[entry]};
+  return static_cast<std::size_t>(reached - shares.begin());
 }
 
 }  // namespace gnbv

@@ -21,6 +21,10 @@ struct CoverageCurve {
   std::vector<double> metres;
   std::vector<double> seconds;
   std::vector<std::array<double, 3>> accurate = {};  // coverage; none of runs of older versions
+  /// Drawn since the mission began, and whether that is on one battery with the way home; entry 0
+  /// has the first view's, which is at home. None of runs of older versions.
+  std::vector<double> energy_wh = {};
+  std::vector<bool> on_one_battery = {};
 
   std::size_t views() const { return coverage.empty() ? 0 : coverage.size() - 1; }
 };
@@ -32,19 +36,41 @@ struct BeforeViews {
   double profile_end_s = 0.0;  // simulated, since the mission began
 };
 
-/// The abscissa of a curve.
-enum class Effort { views, metres, seconds };
-constexpr std::array<std::string_view, 3> kEffortNames = {"views", "metres", "seconds"};
+/// What a mission spends, the abscissa of a curve: views, metres and seconds as CoverageCurve has
+/// them; then from take-off, where the mission begins in the air, with the profile and the way on
+/// from it: metres of planned legs, seconds, and the energy that was drawn.
+enum class Effort {
+  views,
+  metres,
+  seconds,
+  metres_with_profile,
+  seconds_with_profile,
+  wh_with_profile
+};
+constexpr std::array<Effort, 6> kEfforts = {Effort::views,
+                                            Effort::metres,
+                                            Effort::seconds,
+                                            Effort::metres_with_profile,
+                                            Effort::seconds_with_profile,
+                                            Effort::wh_with_profile};
+constexpr std::array<std::string_view, 6> kEffortNames = {
+    "views", "metres", "seconds", "metres_with_profile", "seconds_with_profile", "wh_with_profile"};
 
-/// By Effort: what mean coverage and efforts are judged over. 0: not known.
+constexpr bool is_from_take_off(Effort effort) { return effort >= Effort::metres_with_profile; }
+
+/// By views, metres and seconds: what mean coverage and efforts are judged over. 0: not known.
 using Budgets = std::array<double, 3>;
 
-/// Of the curve's entry.
-double effort_at(const CoverageCurve& curve, Effort effort, std::size_t entry);
+/// Whether the curve has it: energy is not known of runs of older versions.
+bool is_known(const CoverageCurve& curve, Effort effort);
+
+/// Of the curve's entry. Requires that it is known.
+double effort_at(const CoverageCurve& curve, const BeforeViews& before, Effort effort,
+                 std::size_t entry);
 
 /// Mean coverage (size index `size`) over [0, budget] of the effort. Surface counts from the view
 /// that saw it; after the last view coverage stays what it is. In [0, 1]. Requires budget > 0 and a
-/// curve.
+/// curve, and an effort that counts from 0 on.
 double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_t size,
                            double budget);
 
@@ -53,26 +79,14 @@ double area_under_coverage(const CoverageCurve& curve, Effort effort, std::size_
 constexpr std::array<double, 5> kReachShares = {0.80, 0.90, 0.95, 0.98, 0.99};
 constexpr std::array<std::string_view, 5> kReachNames = {"0.80", "0.90", "0.95", "0.98", "0.99"};
 
-/// What a mission had spent.
-struct EffortSpent {
-  double views = 0.0;
-  double metres = 0.0;                // as CoverageCurve has them: from the first view on
-  double metres_with_profile = 0.0;   // and the planned legs of the profile and on to that view
-  double seconds = 0.0;               // as CoverageCurve has them: from the end of the profile on
-  double seconds_with_profile = 0.0;  // since the mission began
-};
-
 /// Seconds of the curve's entry as its metres count, as people read them: from the first view on,
 /// without the way there from the end of the profile. Requires such an entry.
 double seconds_of_views(const CoverageCurve& curve, std::size_t entry);
 
-/// How much a mission spent until it covered so much; one that ends early spends little, but
-/// reaches little: this tells the two apart. What was spent when the cloud first covered so much of
-/// the finest voxels: after the profile (no views, and none of the way to the first one) or after a
-/// view. Nothing when the mission ended before: it is not reached, however much would have been
-/// spent. Requires a curve.
-std::optional<EffortSpent> effort_to_reach(const CoverageCurve& curve, const BeforeViews& before,
-                                           double coverage);
+/// The curve's entry at which the cloud first covered so much of the finest voxels: what a mission
+/// had spent by then tells one that is quick from one that ends early. Nothing when the mission
+/// ended before: it is not reached, however much would have been spent. Requires a curve.
+std::optional<std::size_t> entry_that_covers(const CoverageCurve& curve, double coverage);
 
 /// Coverage as fractions by kCoverageSizes_m.
 struct RunFigures {

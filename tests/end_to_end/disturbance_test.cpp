@@ -123,6 +123,39 @@ TEST(ReturnHome, LeadsAroundANoFlyBox) {
   }
 }
 
+/// As the mission has it, which knows longer ways home; and nothing less than it takes is enough.
+TEST(Battery, BringsHomeFromEveryViewOfAMissionThatReturns) {
+  const double battery_wh = Flown(smoke({"vehicle.power.return_home=true"})).result.energy_wh;
+  Flown flown(smoke(
+      {"vehicle.power.return_home=true", fmt::format("vehicle.power.battery_wh={}", battery_wh)}));
+  EXPECT_EQ(flown.result.termination, Termination::battery);
+  ASSERT_GT(flown.result.views.size(), 1U);
+  const auto marks = [&] { return view_marks(flown.scenario, flown.result.views); };
+  double drawn_wh = 0.0;
+  for (const ViewMark& mark : marks()) {
+    EXPECT_TRUE(mark.on_one_battery) << *mark.energy_wh;
+    EXPECT_GT(*mark.energy_wh, drawn_wh);
+    drawn_wh = *mark.energy_wh;
+  }
+  EXPECT_LT(drawn_wh, flown.result.energy_wh);
+  const VehicleConfig& vehicle = flown.scenario.vehicle;
+  const ViewPose& last = flown.result.views.back().decision.view;
+  const Vec3& home_m = flown.result.start.p_world_m;
+  const double needed_wh =
+      drawn_wh + leg_energy_wh(vehicle, flown.scenario.guidance, last, {home_m, last.yaw_rad}) +
+      landing_energy_wh(vehicle, home_m.z());
+  for (const double more_wh : {-1e-9, 1e-9}) {
+    flown.scenario.vehicle.power.battery_wh = (needed_wh + more_wh) / 0.8;
+    EXPECT_TRUE(marks().front().on_one_battery);
+    EXPECT_EQ(marks().back().on_one_battery, more_wh > 0.0);
+  }
+  // one that is never empty counts as the usual one
+  flown.scenario.vehicle.power.battery_wh = 0.0;
+  EXPECT_TRUE(marks().back().on_one_battery);
+  flown.result.views.back().energy_wh = 0.8 * kUsualBattery_wh;
+  EXPECT_FALSE(marks().back().on_one_battery);
+}
+
 TEST(Battery, ThatIsLargeEnoughEndsNoMission) {
   const Flown flown(smoke({"vehicle.power.return_home=true", "vehicle.power.battery_wh=100"}));
   EXPECT_EQ(flown.result.termination, Termination::max_iterations);

@@ -21,11 +21,10 @@ struct ScoredFlight {
 
   /// From the first view on until the cloud covered so much; without end where it never did.
   double effort_to(double coverage, Effort effort) const {
-    const auto spent = effort_to_reach(score.curve, score.before, coverage);
-    if (!spent) return std::numeric_limits<double>::infinity();
-    const auto views = static_cast<std::size_t>(spent->views);
-    if (effort == Effort::metres || views == 0) return spent->metres;
-    return seconds_of_views(score.curve, views);
+    const auto reached = entry_that_covers(score.curve, coverage);
+    if (!reached) return std::numeric_limits<double>::infinity();
+    if (effort == Effort::metres) return score.curve.metres[*reached];
+    return seconds_of_views(score.curve, *reached);
   }
 };
 
@@ -41,7 +40,7 @@ ScoredFlight fly(const std::string& utility, double coverage = 0.0) {
   MissionResult result =
       run_mission(scenario, world, scene, known_inputs(scenario, world, scene, reference), 2);
   const double voxel_m = scenario.planner.map.resolution_m;
-  MissionScore score = score_cloud(reference, scene, scored_cloud(result), voxel_m, 2);
+  MissionScore score = score_cloud(reference, scene, scored_cloud(scenario, result), voxel_m, 2);
   return {std::move(result), std::move(score)};
 }
 

@@ -46,7 +46,7 @@ TEST(SmokeMission, CoversMostOfTheStructure) {
   const Flown& f = smoke_flight();
   const SurfaceReference reference =
       make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
-  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.result),
+  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.scenario, f.result),
                                          f.scenario.planner.map.resolution_m, 2);
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     EXPECT_GE(score.final[size], score.profile[size]);
@@ -60,13 +60,23 @@ TEST(SmokeMission, WhatExactSensorsCoverIsAccurate) {
   const Flown f(smoke({"planner.cloud.leaf_m=0.02"}));
   const SurfaceReference reference =
       make_surface_reference(f.world, f.scene, {.floor_z_m = f.scenario.planner.floor_z_m}, 2);
-  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.result),
+  const MissionScore score = score_cloud(reference, f.scene, scored_cloud(f.scenario, f.result),
                                          f.scenario.planner.map.resolution_m, 2);
   EXPECT_GT(score.final[0], 0.9);
   for (std::size_t size = 0; size < kCoverageSizes_m.size(); ++size) {
     EXPECT_NEAR(score.accurate[size], score.final[size], 0.001) << size;
     EXPECT_EQ(score.curve.accurate.back()[size], score.accurate[size]);
   }
+  // a record without energy, as older versions wrote it, has none of a score
+  ASSERT_EQ(score.curve.energy_wh.size(), score.curve.coverage.size());
+  EXPECT_EQ(score.curve.energy_wh.front(), f.result.views.front().energy_wh);
+  EXPECT_TRUE(std::ranges::is_sorted(score.curve.energy_wh));
+  ScoredCloud older = scored_cloud(f.scenario, f.result);
+  older.views.back().energy_wh.reset();
+  const MissionScore unknown =
+      score_cloud(reference, f.scene, older, f.scenario.planner.map.resolution_m, 2);
+  EXPECT_FALSE(is_known(unknown.curve, Effort::wh_with_profile));
+  EXPECT_TRUE(unknown.curve.on_one_battery.empty());
 }
 
 TEST(SmokeMission, EveryPointOfTheCloudLiesOnTheStructure) {

@@ -24,7 +24,7 @@ const std::string kScreen = "obstacles=[{box_m: {min: [-0.5, -1.6, 0], max: [0.5
 const std::string kNoFlyEast = "no_fly=[{min: [2.6, -0.8, 0], max: [4.5, 0.8, 3]}]";
 
 MissionScore score_of(const Flown& flown, const SurfaceReference& reference) {
-  ScoredCloud cloud = scored_cloud(flown.result);
+  ScoredCloud cloud = scored_cloud(flown.scenario, flown.result);
   cloud.region_m = flown.scenario.score.region_m;
   return score_cloud(reference, flown.scene, cloud, flown.scenario.planner.map.resolution_m, 2);
 }

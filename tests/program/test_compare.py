@@ -136,13 +136,13 @@ def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     assert found[0]['runs'] == 2 and found[0]['iterations'] == 4
     assert found[0]['time_min'] and found[0]['share_of_ceiling']
     assert found[1]['entropy_reduction'] == 30140
-    for key in ('metres_to_80_runs', 'seconds_to_99_runs'):
+    for key in ('metres_to_80_runs', 'seconds_to_99_runs', 'wh_with_profile_to_95_runs'):
         assert [found[i][key] is None for i in range(7)] == [
             False, True, True, False, False, False, False]
     # every other form has the same rows and the command that repeats it
     for form in ('terminal', 'markdown', 'csv', 'latex'):
         run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',
-            'how many got there', 'ours is of smoke, which is not known to be')
+            'how many got there', 'on one battery', 'ours is of smoke, which is not known to be')
 
 
 def test_table_flies_again_without_noise_what_lies_above_the_ceiling(run):

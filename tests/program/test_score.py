@@ -90,6 +90,17 @@ def test_the_ceiling_gives_a_run_its_efforts(run, copy, tmp_path):
     rows = [line.split(',') for line in (copy / 'coverage.csv').read_text().splitlines()[1:]]
     row = next(row for row in rows if row[0] == str(at_80['views']))
     assert float(row[3]) >= 0.8 * found['ceiling_at_0.05'] and float(row[1]) == at_80['metres']
+    before = found['distance_m']['profile'] + found['distance_m']['transfer']
+    assert at_80['metres_with_profile'] == pytest.approx(before + at_80['metres'])
+    assert at_80['seconds_with_profile'] == pytest.approx(found['profile_end_s'] + at_80['seconds'])
+    assert 0 < at_80['wh_with_profile'] < found['energy_wh']
+    assert at_80['on_one_battery'] is True
+    # a run of an older version knows no energy, which is not none
+    views = copy / 'iterations.csv'
+    views.write_text(re.sub(r',[^,\n]*$', '', views.read_text(), flags=re.M))
+    changed(copy / 'summary.json', lambda old: old.pop('views_sha256'))
+    old = update('--ceiling', **own)['effort_to_reach']['0.80']
+    assert old == at_80 | {'wh_with_profile': None, 'on_one_battery': None}
     assert update('')['effort_to_reach'] is None, 'nobody knows it any more'
 
 
@@ -152,8 +163,8 @@ def test_the_curve_goes_from_the_profile_to_the_end_and_never_falls(flown):
     assert len(rows) == found['iterations'] + 1
     for at, share in ((0, 'profile'), (-1, 'final')):
         assert rows[at][2:5] == list(found['coverage'][share].values())
-    assert rows[-1][5:] == list(found['coverage']['accurate'].values())
-    assert all(accurate <= covered for row in rows for accurate, covered in zip(row[5:], row[2:5]))
+    assert rows[-1][5:8] == list(found['coverage']['accurate'].values())
+    assert all(accurate <= covered for row in rows for accurate, covered in zip(row[5:8], row[2:5]))
     assert rows[-1][0] == found['distance_m']['straight']
     for before, now in zip(rows, rows[1:]):
         assert now[1] > before[1] and all(b <= a for a, b in zip(now, before))
@@ -232,7 +243,7 @@ def test_sizes_of_the_scenario_are_those_of_the_score_and_change_no_mission(run,
     assert curve == (finer / 'coverage.csv').read_text()
     assert curve.startswith('view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50,'
                             'coverage_0.20,accurate_0.05,accurate_0.10,accurate_0.50,'
-                            'accurate_0.20\n')
+                            'accurate_0.20,energy_wh,one_battery\n')
     own = summary(tmp_path / 'own')
     assert own['coverage'] == summary(finer)['coverage'] and hash_of(flown) == own['result_sha256']
     at = own['coverage']['final']

@@ -19,10 +19,11 @@ std::optional<StepCurve> coverage_steps(const RunFigures& figures, Effort effort
   const auto more = std::find_if(figures.more.begin(), figures.more.end(),
                                  [&](const SizedCoverage& at) { return at.size_m == size_m; });
   if (curve.coverage.empty() || (!papers && more == figures.more.end())) return std::nullopt;
+  if (!is_known(curve, effort)) return std::nullopt;
   StepCurve steps;
   for (std::size_t entry = 0; entry < curve.coverage.size(); ++entry) {
     steps.x.push_back(effort == Effort::seconds ? seconds_of_views(curve, entry)
-                                                : effort_at(curve, effort, entry));
+                                                : effort_at(curve, figures.before, effort, entry));
     steps.y.push_back(100.0 * (papers ? curve.coverage[entry][*papers] : more->curve.at(entry)));
   }
   return steps;

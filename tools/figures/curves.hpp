@@ -23,7 +23,8 @@ struct StepCurve {
 };
 
 /// Coverage (%) at one voxel size over what was spent since the first view, so that the way there
-/// from the profile is in neither metres nor seconds. Nothing for a run that was not scored at it.
+/// from the profile is in neither metres nor seconds; or from take-off. Nothing for a run that was
+/// not scored at it, or of which the effort is not known.
 std::optional<StepCurve> coverage_steps(const RunFigures& figures, Effort effort, double size_m);
 
 /// Values after each view, the first at 1.

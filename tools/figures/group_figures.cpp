@@ -15,20 +15,30 @@ namespace {
 constexpr double kBeyond = 1.01;  // of the longest run, so that its end shows
 
 struct EffortWords {
-  const char* name;
   const char* label;
   const char* end;  // the last 15 % of what
   const char* unit;
 };
 
 EffortWords words_of(Effort effort) {
-  if (effort == Effort::views) return {"views", "views", "views", "views"};
-  if (effort == Effort::metres) {
-    return {"metres", "path since the first view, straight legs (m)", "the path, straight legs (m)",
-            "m"};
+  switch (effort) {
+    case Effort::views:
+      return {"views", "views", "views"};
+    case Effort::metres:
+      return {"path since the first view, straight legs (m)", "the path, straight legs (m)", "m"};
+    case Effort::seconds:
+      return {"time since the first view (s)", "the time since the first view (s)", "s"};
+    case Effort::metres_with_profile:
+      return {"path from take-off, straight legs (m)", "the path from take-off (m)", "m"};
+    case Effort::seconds_with_profile:
+      return {"time from take-off (s)", "the time from take-off (s)", "s"};
+    case Effort::wh_with_profile:
+      return {"energy from take-off (Wh)", "the energy from take-off (Wh)", "Wh"};
   }
-  return {"seconds", "time since the first view (s)", "the time since the first view (s)", "s"};
+  GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
 }
+
+std::string_view name_of(Effort effort) { return kEffortNames[static_cast<std::size_t>(effort)]; }
 
 std::vector<DrawnGroup> coverage_groups(std::span<const RunGroup> groups, Effort effort,
                                         double size_m) {
@@ -104,10 +114,9 @@ Arrivals arrivals_of(const RunGroup& group, Effort effort, double share) {
     const RunFigures& figures = *run->figures;
     if (!figures.ceiling) continue;
     ++arrivals.runs;
-    const auto spent = effort_to_reach(figures.curve, figures.before, share * *figures.ceiling);
-    if (!spent) continue;
-    const StepCurve steps = *coverage_steps(figures, effort, kCoverageSizes_m[0]);
-    arrivals.efforts.push_back(steps.x[static_cast<std::size_t>(spent->views)]);
+    const auto reached = entry_that_covers(figures.curve, share * *figures.ceiling);
+    if (!reached) continue;
+    arrivals.efforts.push_back(coverage_steps(figures, effort, kCoverageSizes_m[0])->x[*reached]);
   }
   std::sort(arrivals.efforts.begin(), arrivals.efforts.end());
   return arrivals;
@@ -118,7 +127,7 @@ Arrivals arrivals_of(const RunGroup& group, Effort effort, double share) {
 Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double size_m) {
   const EffortWords words = words_of(effort);
   const std::vector<DrawnGroup> drawn = coverage_groups(groups, effort, size_m);
-  Figure figure{.name = fmt::format("coverage-{}", words.name),
+  Figure figure{.name = fmt::format("coverage-{}", name_of(effort)),
                 .kind = "coverage",
                 .title = common_scenario(groups)};
   FigurePanel panel{.series = coverage_levels(groups, size_m), .height_px = kTallPanel_px};
@@ -139,7 +148,7 @@ std::optional<Figure> coverage_end_figure(std::span<const RunGroup> groups, Effo
   const double longest = longest_of(drawn);
   if (!(longest > 0.0)) return std::nullopt;
   const double from = (1.0 - 0.01 * kEndPercent) * longest;
-  Figure figure{.name = fmt::format("coverage-{}-end", words.name),
+  Figure figure{.name = fmt::format("coverage-{}-end", name_of(effort)),
                 .kind = "coverage",
                 .title = common_scenario(groups)};
   std::vector<std::string> ended;
@@ -199,7 +208,7 @@ std::optional<Figure> reach_figure(std::span<const RunGroup> groups, Effort effo
              .low = 0.0,
              .high = 103.0,
              .ticks = ticks_of(0.0, 100.0, 20.0)};
-  return Figure{.name = fmt::format("reach-{}", words_of(effort).name),
+  return Figure{.name = fmt::format("reach-{}", name_of(effort)),
                 .kind = "reach",
                 .title = title,
                 .panels = {std::move(panel)}};

@@ -43,7 +43,7 @@ void add_groups(std::span<const DrawnGroup> groups, Mark mark, FigurePanel& pane
 /// utility. Nothing at a size of which nothing is known.
 std::vector<Series> coverage_levels(std::span<const RunGroup> groups, double size_m);
 
-/// "coverage-views", "coverage-metres" or "coverage-seconds": steps for each group, with the 95 %
+/// "coverage-views" and so on by kEffortNames: steps for each group, with the 95 %
 /// interval of the mean where it has three runs or more; of two both are drawn, thinly. A mark
 /// stands where a group's runs end, as a mean over them (the line goes on to the longest), dashes
 /// where the paper's row ended and a dark line where the ceiling is, as far as they are known at
@@ -56,7 +56,7 @@ Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double s
 std::optional<Figure> coverage_end_figure(std::span<const RunGroup> groups, Effort effort,
                                           double size_m);
 
-/// "reach-views", "reach-metres" or "reach-seconds": for each group a step curve, the share of its
+/// "reach-views" and so on by kEffortNames: for each group a step curve, the share of its
 /// runs whose cloud covered `share` of the ceiling at 0.05 m by so much effort. A run that ended
 /// before never did: the curve then stays below 100 %. (The distribution of run lengths of
 /// optimisers: Hoos and Stuetzle 1998; More and Wild 2009, data profiles.) Only runs whose ceiling

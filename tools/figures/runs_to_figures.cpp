@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <regex>
 #include <utility>
@@ -13,8 +14,6 @@
 
 namespace gnbv {
 namespace {
-
-constexpr std::array<Effort, 3> kEfforts = {Effort::views, Effort::metres, Effort::seconds};
 
 bool wants(const FigureRequest& request, const std::string& kind) {
   return std::find(request.kinds.begin(), request.kinds.end(), kind) != request.kinds.end();
@@ -51,6 +50,18 @@ std::vector<Figure> figures_of_each(std::span<const RunRecord> records,
   return figures;
 }
 
+/// Those that are known of all runs.
+std::vector<Effort> known_efforts(const std::vector<RunGroup>& groups) {
+  std::vector<Effort> known;
+  std::ranges::copy_if(kEfforts, std::back_inserter(known), [&](Effort effort) {
+    return std::ranges::all_of(groups, [&](const RunGroup& group) {
+      return std::ranges::all_of(
+          group.runs, [&](const RunRecord* run) { return is_known(run->figures->curve, effort); });
+    });
+  });
+  return known;
+}
+
 /// Of each group the runs that were scored at the size; groups without any are gone.
 std::vector<RunGroup> groups_at(std::vector<RunGroup> groups, double size_m,
                                 std::vector<std::string>& notes) {
@@ -71,7 +82,7 @@ void add_coverage(const std::vector<RunGroup>& groups, double size_m, std::vecto
                   std::vector<std::string>& notes) {
   const std::vector<RunGroup> scored = groups_at(groups, size_m, notes);
   if (scored.empty()) return;
-  for (const Effort effort : kEfforts) {
+  for (const Effort effort : known_efforts(scored)) {
     figures.push_back(coverage_figure(scored, effort, size_m));
     if (auto end = coverage_end_figure(scored, effort, size_m)) figures.push_back(std::move(*end));
   }
@@ -80,7 +91,7 @@ void add_coverage(const std::vector<RunGroup>& groups, double size_m, std::vecto
 void add_reach(const std::vector<RunGroup>& groups, int percent, std::vector<Figure>& figures,
                std::vector<std::string>& notes) {
   const std::size_t before = figures.size();
-  for (const Effort effort : kEfforts) {
+  for (const Effort effort : known_efforts(groups)) {
     if (auto reach = reach_figure(groups, effort, percent / 100.0)) {
       figures.push_back(std::move(*reach));
     }

@@ -22,7 +22,8 @@ struct CompareOptions {
   fs::path plots;  // folder; "" draws none
 };
 
-/// The paired differences, and the coverage over metres of all methods, scenario by scenario.
+/// The paired differences, and of all methods the coverage over metres and over seconds from
+/// take-off, scenario by scenario.
 void draw_comparison(const ComparedMissions& missions, const fs::path& folder) {
   const Comparison& comparison = missions.comparison;
   const BenchRuns& collected = missions.flown;
@@ -39,8 +40,10 @@ void draw_comparison(const ComparedMissions& missions, const fs::path& folder) {
     const std::vector<RunGroup> groups = group_runs(records, notes);
     for (const std::string& note : notes) say(note);
     if (groups.empty()) continue;
-    figures.push_back(coverage_figure(groups, Effort::metres, kCoverageSizes_m[0]));
-    figures.back().name += "-" + comparison.scenarios[scenario];
+    for (const Effort effort : {Effort::metres, Effort::seconds_with_profile}) {
+      figures.push_back(coverage_figure(groups, effort, kCoverageSizes_m[0]));
+      figures.back().name += "-" + comparison.scenarios[scenario];
+    }
   }
   for (Figure& figure : figures) {  // of a scenario that a sweep may have called a/b
     std::replace(figure.name.begin(), figure.name.end(), '/', '-');

@@ -236,7 +236,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     directory.need_as_recorded(result);
     const Stopwatch scoring;
     show_progress(1.0, "scoring");
-    ScoredCloud cloud = scored_cloud(result);
+    ScoredCloud cloud = scored_cloud(scenario, result);
     cloud.region_m = scenario.score.region_m;
     MissionScore score =
         score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,

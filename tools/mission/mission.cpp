@@ -125,6 +125,7 @@ void record(Mission& m, const Decision& decision) {
        .straight_m = m.out.distance.straight_m,
        .flown_m = m.out.distance.flown_m,
        .time_s = time_s(*m.flight),
+       .energy_wh = m.flight->energy_wh(),
        .wall = m.view_wall});
   m.out.wall.sense_s += m.view_wall.sense_s;
   m.out.wall.map_s += m.view_wall.map_s;

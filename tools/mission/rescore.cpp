@@ -117,7 +117,7 @@ Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
                           .before = {.profile_m = *summary.profile_m,
                                      .transfer_m = *summary.transfer_m,
                                      .profile_end_s = *summary.profile_end_s},
-                          .views = view_marks(views)};
+                          .views = view_marks(scenario, views)};
   need_matching(run, cloud, profile, *summary.iterations);
   need_views_of_summary(run / kIterationsFile, summary, views);
   const World world = world_of(scenario);

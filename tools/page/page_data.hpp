@@ -76,6 +76,7 @@ struct Views {
   Array<double> time = {};     // of the mission
   Array<double> seconds = {};
   Array<double> metres = {};
+  std::vector<Array<double>> from_take_off = {};  // metres, seconds, Wh; after n views, from 0 on
   std::vector<std::string> sampler = {};
   Array<std::uint32_t> candidates = {};
   Array<std::uint32_t> valid = {};
@@ -83,8 +84,8 @@ struct Views {
       {};  // its number in its plan: what tells of decisions tells of 1
   std::optional<Array<double, 16>> T_body_camera = {};  // a row a camera; where a gimbal turns some
 };
-GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, sampler, candidates, valid, plan_view,
-                 T_body_camera)
+GNBV_PAGE_FIELDS(Views, pose, time, seconds, metres, from_take_off, sampler, candidates, valid,
+                 plan_view, T_body_camera)
 
 struct Figures {
   std::string termination = {};
@@ -200,8 +201,8 @@ struct FrameData {
 };
 GNBV_PAGE_FIELDS(FrameData, view, camera, width_px, height_px, jpeg, depth_jpeg)
 
-/// One of what a plot can show: figures of figures.schema.json over views, metres and seconds, a
-/// line a run; and, where runs differ in their seeds alone, their means.
+/// One of what a plot can show: figures of figures.schema.json by Effort, a line a run; and, where
+/// runs differ in their seeds alone, their means.
 struct PlotChoice {
   std::string label = {};
   std::vector<FigureJson> runs = {};

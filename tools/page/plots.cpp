@@ -21,9 +21,13 @@ using CurveOf = std::function<StepCurve(const RunRecord&, Effort)>;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRoom = 1.02;  // right of the last view, so that no mark lies on the edge
-constexpr std::array kEfforts = {Effort::views, Effort::metres, Effort::seconds};
-constexpr std::array<const char*, 3> kEffortWords = {
-    "Views", "Metres from the first view on, straight", "Seconds from the first view on"};
+constexpr std::array<const char*, kEfforts.size()> kEffortWords = {
+    "Views",
+    "Metres from the first view on, straight",
+    "Seconds from the first view on",
+    "Metres from take-off, straight",
+    "Seconds from take-off",
+    "Wh from take-off"};
 constexpr std::array<const char*, 3> kSizes = {"0.05 m", "0.10 m", "0.50 m"};
 
 struct Term {
@@ -37,8 +41,18 @@ constexpr std::array<Term, 5> kTerms = {{{"Utility", &Score::value, kUnknown},
                                          {"Prediction", &Score::prediction, 0.0},
                                          {"Distance factor", &Score::distance, 1.0}}};
 
-/// What the first `views` views had taken.
+/// From take-off of scored runs alone.
+bool is_known(const RunRecord& record, Effort effort) {
+  if (!is_from_take_off(effort)) return true;
+  return record.figures && record.figures->curve.views() == record.views.size() &&
+         is_known(record.figures->curve, effort);
+}
+
+/// What the first `views` views had taken. Requires that it is known.
 double spent(const RunRecord& record, Effort effort, std::size_t views) {
+  if (is_from_take_off(effort)) {
+    return effort_at(record.figures->curve, record.figures->before, effort, views);
+  }
   if (views == 0) return 0.0;
   const ViewRecord& last = record.views.at(views - 1);
   return effort == Effort::views    ? static_cast<double>(views)
@@ -48,6 +62,7 @@ double spent(const RunRecord& record, Effort effort, std::size_t views) {
 
 /// Of values after each view, or after the profile and each view.
 StepCurve curve_over(const RunRecord& record, Effort effort, Values values) {
+  if (!is_known(record, effort)) return {};
   StepCurve curve{.x = {}, .y = std::move(values)};
   const std::size_t first = curve.y.size() > record.views.size() ? 0 : 1;
   for (std::size_t i = 0; i < curve.y.size(); ++i) {
@@ -95,6 +110,7 @@ Values shares_of_largest(Values values) {
 /// When views were found at frontiers.
 std::vector<std::array<double, 2>> frontier_spans(const RunRecord& record, Effort effort) {
   std::vector<std::array<double, 2>> spans;
+  if (!is_known(record, effort)) return spans;
   for (const Phase& phase : frontier_phases(record.views)) {
     spans.push_back({spent(record, effort, static_cast<std::size_t>(phase.first)),
                      spent(record, effort, static_cast<std::size_t>(phase.last) + 1)});
@@ -150,7 +166,11 @@ class PlotMaker {
       std::vector<DrawnGroup> drawn;
       for (const RunGroup& group : groups_) {
         std::vector<StepCurve> curves;
-        for (const RunRecord* const run : group.runs) curves.push_back(curve_of(*run, effort));
+        for (const RunRecord* const run : group.runs) {
+          StepCurve curve = curve_of(*run, effort);
+          if (!curve.x.empty()) curves.push_back(std::move(curve));
+        }
+        if (curves.empty()) continue;
         drawn.emplace_back(group.label, group.look, std::move(curves));
       }
       FigurePanel means;
@@ -173,8 +193,9 @@ class PlotMaker {
         panel.series.insert(panel.series.end(), levels.begin(), levels.end());
       }
       double end = 1e-6;
-      for (const RunRecord& run : records_)
-        end = std::max(end, spent(run, effort, run.views.size()));
+      for (const RunRecord& run : records_) {
+        if (is_known(run, effort)) end = std::max(end, spent(run, effort, run.views.size()));
+      }
       panel.x = axis_from(kEffortWords[static_cast<std::size_t>(effort)], 0.0, kRoom * end);
       panel.y = axis_of(panel.series, unit);
       if (records_.size() == 1) {

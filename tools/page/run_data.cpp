@@ -49,6 +49,15 @@ page::Views views_of(const RunRecord& record, page::Arrays& arrays) {
       .candidates = one([](V v) { return static_cast<std::uint32_t>(v.decision.candidates); }),
       .valid = one([](V v) { return static_cast<std::uint32_t>(v.decision.valid); }),
       .plan_view = one([](V v) { return static_cast<std::uint32_t>(v.decision.plan_view); })};
+  for (const Effort effort : kEfforts) {
+    if (!record.figures || !is_from_take_off(effort)) continue;
+    const CoverageCurve& curve = record.figures->curve;
+    std::vector<double> spent;
+    for (std::size_t n = 0; is_known(curve, effort) && n < curve.coverage.size(); ++n) {
+      spent.push_back(effort_at(curve, record.figures->before, effort, n));
+    }
+    views.from_take_off.push_back(arrays.add(spent));
+  }
   for (const ViewRecord& view : record.views) {
     views.sampler.emplace_back(traits_of(view.decision.sampler).name);
   }
@@ -108,6 +117,19 @@ std::vector<page::KeyFigure> key_figures(const RunRecord& record) {
     add("Density", f->density_points_per_voxel, 1, "a voxel", beside.density_points_per_voxel);
     add("Flight with profile", f->flight_time_s / 60.0, 1, "min");
     add("Energy", f->energy_wh, 1, "Wh");
+    const auto reached =
+        f->ceiling ? entry_that_covers(f->curve, 0.95 * *f->ceiling) : std::nullopt;
+    if (reached) {
+      const auto spent = [&](Effort effort, int decimals) {
+        return grouped(effort_at(f->curve, f->before, effort, *reached), decimals);
+      };
+      std::string more = fmt::format("s, {} m", spent(Effort::metres_with_profile, 0));
+      if (is_known(f->curve, Effort::wh_with_profile)) {
+        more += fmt::format(", {} Wh, {}on one battery", spent(Effort::wh_with_profile, 1),
+                            f->curve.on_one_battery[*reached] ? "" : "not ");
+      }
+      all.push_back({"Take-off to 95 % of ceiling", spent(Effort::seconds_with_profile, 0), more});
+    }
   }
   return all;
 }

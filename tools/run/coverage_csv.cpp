@@ -13,6 +13,7 @@ constexpr std::string_view kHeader =
     "view,metres,seconds,coverage_0.05,coverage_0.10,coverage_0.50";
 
 constexpr std::string_view kColumn = "coverage_";
+constexpr std::string_view kEnergy = ",energy_wh,one_battery";  // behind all others
 constexpr std::size_t kColumns = 6;  // of the header above; others follow it
 
 std::string header_of(const std::vector<std::string>& more_names, bool has_accurate) {
@@ -38,13 +39,26 @@ void need_curve(const CoverageCurve& before, std::span<const double> row, const 
   }
 }
 
+void add_energy(double energy_wh, double on_one_battery, const TextPlace& place,
+                CoverageCurve& curve) {
+  const double before_wh = curve.energy_wh.empty() ? 0.0 : curve.energy_wh.back();
+  if (!(energy_wh >= before_wh) || (on_one_battery != 0.0 && on_one_battery != 1.0)) {
+    throw BadInput(fmt::format("{}: {} Wh after {} Wh, one_battery {}", to_string(place), energy_wh,
+                               before_wh, on_one_battery));
+  }
+  curve.energy_wh.push_back(energy_wh);
+  curve.on_one_battery.push_back(on_one_battery == 1.0);
+}
+
 }  // namespace
 
 std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more) {
   const bool has_accurate = !curve.accurate.empty();
   std::vector<std::string> more_names;
   for (const SizedCoverage& at : more) more_names.push_back(size_name(at.size_m));
-  std::string csv = header_of(more_names, has_accurate) + '\n';
+  const bool has_energy = !curve.energy_wh.empty();
+  std::string csv = header_of(more_names, has_accurate);
+  csv += has_energy ? fmt::format("{}\n", kEnergy) : "\n";
   for (std::size_t view = 0; view < curve.coverage.size(); ++view) {
     const auto& [fine, middle, coarse] = curve.coverage[view];
     csv += fmt::format("{},{},{},{},{},{}", view, curve.metres[view], curve.seconds[view], fine,
@@ -54,6 +68,9 @@ std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCovera
       for (const double share : curve.accurate[view]) csv += fmt::format(",{}", share);
       for (const SizedCoverage& at : more) csv += fmt::format(",{}", at.accurate_curve[view]);
     }
+    if (has_energy) {
+      csv += fmt::format(",{},{:d}", curve.energy_wh[view], bool(curve.on_one_battery[view]));
+    }
     csv += '\n';
   }
   return csv;
@@ -62,7 +79,9 @@ std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCovera
 CoverageFile read_coverage_csv(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   std::string_view rest = text;
-  const std::string_view header = next_part(rest, '\n');
+  std::string_view header = next_part(rest, '\n');
+  const bool has_energy = header.ends_with(kEnergy);
+  if (has_energy) header.remove_suffix(kEnergy.size());
   const std::vector<std::string_view> names = split(header, ',');
   CoverageFile read;
   for (std::size_t i = kColumns; i < names.size() && names[i].starts_with(kColumn); ++i) {
@@ -80,15 +99,16 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
     for (const std::string_view cell : split(row, ',')) {
       values.push_back(to_number(cell, place, fmt::format("'{}':", row)));
     }
-    if (values.size() != names.size()) {
-      throw BadInput(
-          fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, names.size()));
+    const std::size_t count = names.size() + (has_energy ? 2 : 0);
+    if (values.size() != count) {
+      throw BadInput(fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, count));
     }
     if (values[0] != place.line - 2) {
       throw BadInput(
           fmt::format("{}: view {} must be {}", to_string(place), values[0], place.line - 2));
     }
-    need_curve(read.curve, values, place);
+    need_curve(read.curve, std::span(values).first(names.size()), place);
+    if (has_energy) add_energy(values[names.size()], values.back(), place, read.curve);
     read.curve.metres.push_back(values[1]);
     read.curve.seconds.push_back(values[2]);
     read.curve.coverage.push_back({values[3], values[4], values[5]});

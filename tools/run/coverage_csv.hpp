@@ -11,7 +11,8 @@
 namespace gnbv {
 
 /// A row an entry of the curve, a column a size: the paper's three, then the others; the same of
-/// accurate coverage, where the curve has it. Numbers are written so that they read back exactly.
+/// accurate coverage, energy_wh and one_battery (1 or 0), where the curve has them. Numbers are
+/// written so that they read back exactly.
 std::string coverage_csv(const CoverageCurve& curve, std::span<const SizedCoverage> more = {});
 
 struct CoverageFile {

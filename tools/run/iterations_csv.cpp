@@ -61,12 +61,12 @@ void visit_columns(View& view, Columns columns, Column&& column) {
   column("via", d.via_world_m);
   if (columns.gimbal) column("gimbal_pitch", d.view.gimbal_pitch_rad);
   if (columns.plans) column("plan_view", d.plan_view);
+  if (columns.energy) column("energy_wh", view.energy_wh);
 }
-
-constexpr Columns kAllColumns = {.gimbal = true, .plans = true};
 
 std::string text_of(const auto& value) { return fmt::format("{}", value); }
 std::string text_of(const Sampler& sampler) { return std::string(traits_of(sampler).name); }
+std::string text_of(const std::optional<double>& value) { return value ? text_of(*value) : ""; }
 std::string text_of(const Wall<const double>& wall) { return fmt::format("{:.6f}", wall.s); }
 /// "x:y:z;x:y:z"; an empty cell for none.
 std::string text_of(const std::vector<Vec3>& points_m) {
@@ -133,6 +133,10 @@ struct Row {
   void operator()(std::string_view name, double& value) {
     value = to_number(next_part(rest, ','), place, name);
   }
+  void operator()(std::string_view name, std::optional<double>& value) {
+    const std::string_view cell = next_part(rest, ',');
+    if (!cell.empty()) value = to_number(cell, place, name);
+  }
   void operator()(std::string_view name, int& count) {
     count = to_count(next_part(rest, ','), place, name);
   }
@@ -186,7 +190,8 @@ Columns columns_of(const Scenario& scenario) {
   const PlannerConfig& planner = scenario.planner;
   return {.gimbal = gimbal_of(scenario.cameras).has_value(),
           .plans = traits_of(planner).scores_views && planner.fvs.enabled &&
-                   planner.fvs.mode == FvsMode::burst};
+                   planner.fvs.mode == FvsMode::burst,
+          .energy = true};
 }
 
 std::string iterations_csv(std::span<const ViewRecord> views, Columns columns) {
@@ -206,8 +211,9 @@ std::string JournalRows::row(const ViewRecord& view) {
 }
 
 std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded) {
-  const Cells of_now = cells_of(now, kAllColumns, false);
-  const Cells of_recorded = cells_of(recorded, kAllColumns, false);
+  const Columns columns = {.gimbal = true, .plans = true, .energy = recorded.energy_wh.has_value()};
+  const Cells of_now = cells_of(now, columns, false);
+  const Cells of_recorded = cells_of(recorded, columns, false);
   for (std::size_t i = 0; i < of_now.names.size(); ++i) {
     if (of_now.values[i] == of_recorded.values[i]) continue;
     return Difference{of_now.names[i], of_now.values[i], of_recorded.values[i]};
@@ -218,8 +224,10 @@ std::optional<Difference> first_difference(const ViewRecord& now, const ViewReco
 std::string views_sha256(std::span<const ViewRecord> views) {
   Sha256 sha;
   for (const ViewRecord& view : views) {
-    // so that runs without bursts keep theirs
-    const Columns columns = {.gimbal = true, .plans = view.decision.plan_view != 1};
+    // so that runs without bursts, and older ones, keep theirs
+    const Columns columns = {.gimbal = true,
+                             .plans = view.decision.plan_view != 1,
+                             .energy = view.energy_wh.has_value()};
     sha.add(joined(cells_of(view, columns, false).values) + ",");
   }
   return sha.hex();
@@ -252,7 +260,8 @@ std::vector<ViewRecord> read_view_records(const std::filesystem::path& csv) {
     }
     has_checks = row.ends_with(kCheckColumn);
     if (has_checks) row.remove_suffix(kCheckColumn.size());
-    for (const Columns& more : {Columns{.gimbal = true}, {.plans = true}, kAllColumns}) {
+    for (const int some : {1, 2, 3, 4, 5, 6, 7}) {
+      const Columns more = {(some & 1) != 0, (some & 2) != 0, (some & 4) != 0};
       if (row == header_text(more)) columns = more;
     }
     need_header(row, header_text(columns), place,

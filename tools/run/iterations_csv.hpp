@@ -13,10 +13,12 @@
 namespace gnbv {
 
 /// Runs of a vehicle with a gimbal have a column more, its pitch in radians; those of a planner of
-/// bursts the number of each view in its plan, from 1 on: with the others nothing was decided.
+/// bursts the number of each view in its plan, from 1 on: with the others nothing was decided; and
+/// all but those of older versions the energy.
 struct Columns {
   bool gimbal = false;
   bool plans = false;
+  bool energy = false;
 };
 Columns columns_of(const Scenario& scenario);
 
@@ -44,7 +46,7 @@ struct Difference {
 };
 std::optional<Difference> first_difference(const ViewRecord& now, const ViewRecord& recorded);
 
-/// SHA-256 of all columns but wall times.
+/// SHA-256 of all columns but wall times; of views without a known energy as older versions had it.
 std::string views_sha256(std::span<const ViewRecord> views);
 
 /// The columns from `sampler` to `time_s`, with commas between: why the view was chosen and how far

@@ -3,24 +3,34 @@
 #include <fmt/format.h>
 
 #include "sim/core/sha256.hpp"
+#include "sim/flight/guidance.hpp"
 
 namespace gnbv {
 
-std::vector<ViewMark> view_marks(std::span<const ViewRecord> views) {
+std::vector<ViewMark> view_marks(const Scenario& scenario, std::span<const ViewRecord> views) {
+  const PowerParameters& power = scenario.vehicle.power;
+  const double battery_wh = power.battery_wh > 0.0 ? power.battery_wh : kUsualBattery_wh;
   std::vector<ViewMark> marks;
   for (const ViewRecord& view : views) {
-    marks.push_back({view.cloud_points, view.straight_m, view.time_s});
+    const ViewPose& at = view.decision.view;
+    ViewPose home = at;  // as it looks: the way home needs no turn
+    home.p_world_m = views.front().decision.view.p_world_m;
+    const double needed_wh = view.energy_wh.value_or(0.0) +
+                             leg_energy_wh(scenario.vehicle, scenario.guidance, at, home) +
+                             landing_energy_wh(scenario.vehicle, home.p_world_m.z());
+    marks.push_back({view.cloud_points, view.straight_m, view.time_s, view.energy_wh,
+                     needed_wh <= (1.0 - power.reserve_share) * battery_wh});
   }
   return marks;
 }
 
-ScoredCloud scored_cloud(const MissionResult& result) {
+ScoredCloud scored_cloud(const Scenario& scenario, const MissionResult& result) {
   return {.points_world_m = result.belief.cloud.points_world_m(),
           .profile_points = result.profile_points_world_m.size(),
           .before = {.profile_m = result.distance.profile_m,
                      .transfer_m = result.distance.transfer_m,
                      .profile_end_s = result.profile_end_s},
-          .views = view_marks(result.views)};
+          .views = view_marks(scenario, result.views)};
 }
 
 std::string margin_note(const Scenario& scenario, const PathError& error) {

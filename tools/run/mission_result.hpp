@@ -42,10 +42,11 @@ struct ViewRecord {
   double entropy_nat = 0.0;  // total, after the view
   double density_points_per_voxel = 0.0;
   std::size_t cloud_points = 0;
-  double straight_m = 0.0;  // from the first view to this one, along the planned legs
-  double flown_m = 0.0;     // the same, as flown
-  double time_s = 0.0;      // simulated, since the start of the mission
-  WallTimes wall = {};      // of this view alone
+  double straight_m = 0.0;               // from the first view to this one, along the planned legs
+  double flown_m = 0.0;                  // the same, as flown
+  double time_s = 0.0;                   // simulated, since the start of the mission
+  std::optional<double> energy_wh = {};  // drawn since then; not known of runs of older versions
+  WallTimes wall = {};                   // of this view alone
 
   /// The iteration of the first view of its plan: what tells of the decision tells of that one.
   std::size_t planned_at() const {
@@ -132,11 +133,18 @@ struct MissionResult {
   WallTimes wall;
 };
 
-/// How far the mission was after each view.
-std::vector<ViewMark> view_marks(std::span<const ViewRecord> views);
+/// Of scenarios whose battery is never empty: a 3DR Iris+ has 5.1 Ah at 11.1 V.
+constexpr double kUsualBattery_wh = 56.6;
+
+/// How far the mission was after each view, and whether on one battery: whether what it had drawn,
+/// a straight leg home at path speed in still air and the landing there are no more than the
+/// battery without its reserve (vehicle.power.battery_wh and reserve_share; where it is never
+/// empty, kUsualBattery_wh). Home is the first view. A mission with return_home takes no view from
+/// which the ways that it knows, which are longer, would take more.
+std::vector<ViewMark> view_marks(const Scenario& scenario, std::span<const ViewRecord> views);
 
 /// What a score needs of a mission.
-ScoredCloud scored_cloud(const MissionResult& result);
+ScoredCloud scored_cloud(const Scenario& scenario, const MissionResult& result);
 
 /// A line for a flight that truly was farther from its legs than planner.validity.
 /// collision_radius_m leaves beyond the hull, so that only luck kept it from the structure; nothing

@@ -29,19 +29,25 @@ Json by_effort(const Budgets& budgets, const ValueOf& value_of) {
   return json;
 }
 
-/// By share of the ceiling; null where it is not reached, and for all when the ceiling is unknown.
+/// By share of the ceiling; null where it is not reached, and for all when the ceiling is unknown;
+/// so is energy, with the battery, of runs of older versions.
 Json effort_of(const MissionScore& score) {
   if (!score.ceiling) return nullptr;
   Json all;
   for (std::size_t i = 0; i < kReachShares.size(); ++i) {
     Json& entry = all[std::string(kReachNames[i])] = nullptr;
-    const auto spent = effort_to_reach(score.curve, score.before, kReachShares[i] * *score.ceiling);
-    if (!spent) continue;
-    entry = {{"views", static_cast<std::uint64_t>(spent->views)},
-             {"metres", spent->metres},
-             {"metres_with_profile", spent->metres_with_profile},
-             {"seconds", spent->seconds},
-             {"seconds_with_profile", spent->seconds_with_profile}};
+    const auto reached = entry_that_covers(score.curve, kReachShares[i] * *score.ceiling);
+    if (!reached) continue;
+    for (const Effort effort : kEfforts) {
+      Json& spent = entry[std::string(kEffortNames[static_cast<std::size_t>(effort)])] = nullptr;
+      if (is_known(score.curve, effort)) {
+        spent = effort_at(score.curve, score.before, effort, *reached);
+      }
+    }
+    entry["views"] = *reached;
+    const auto& on_one_battery = score.curve.on_one_battery;
+    entry["on_one_battery"] = nullptr;
+    if (!on_one_battery.empty()) entry["on_one_battery"] = bool(on_one_battery[*reached]);
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
 #include "bench/compare/paper_groups.hpp"
 #include "bench/compare/paper_table.hpp"
@@ -133,8 +134,9 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
 BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
                       const std::string& command) {
   TextTable text = comparison_table(paper, runs.rows);
-  const TextTable metres = effort_table(paper, Effort::metres, runs.rows);
-  const TextTable seconds = effort_table(paper, Effort::seconds, runs.rows);
+  // people read narrow tables, machines one wide one
+  const bool is_one = options.format == "csv" || options.format == "json";
+  if (!is_one) text = with_columns_of(text, take_off_table(paper, runs.rows), kSharedColumns);
   const bool has_exact = std::ranges::count(runs.rows, kExact, &MissionRow::setting) > 0;
   if (has_exact) {
     text.notes.emplace_back(
@@ -154,13 +156,16 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
   if (!is_papers("papers_setting")) text.notes.emplace_back(kOtherSetting);
   text.notes.insert(text.notes.end(), runs.notes.begin(), runs.notes.end());
   if (!command.empty()) text.notes.push_back(command);
-  // people read narrow tables, machines one wide one
-  if (options.format == "csv" || options.format == "json") {
-    return {
-        {with_columns_of(with_columns_of(text, metres, kSharedColumns), seconds, kSharedColumns)},
-        runs.failures};
+  std::vector<TextTable> tables = {std::move(text)};
+  for (const Effort effort : std::span(kEfforts).subspan(1)) {  // but views
+    TextTable more = effort_table(paper, effort, runs.rows);
+    if (is_one) {
+      tables[0] = with_columns_of(std::move(tables[0]), more, kSharedColumns);
+    } else if (more.columns.size() > kSharedColumns) {
+      tables.push_back(std::move(more));
+    }
   }
-  return {{text, metres, seconds}, runs.failures};
+  return {std::move(tables), runs.failures};
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ inline Comparison compare(std::vector<ComparedRun> runs, const std::string& base
   std::map<std::string, Budgets> budgets;
   for (const ComparedRun& run : runs) {
     const CoverageCurve& curve = run.figures.curve;
-    for (std::size_t i = 0; i < kEffortNames.size() && !curve.coverage.empty(); ++i) {
+    for (std::size_t i = 0; i < Budgets{}.size() && !curve.coverage.empty(); ++i) {
       double& budget = budgets[run.scenario][i];
-      budget = std::max(budget, effort_at(curve, static_cast<Effort>(i), curve.views()));
+      budget = std::max(budget, effort_at(curve, {}, kEfforts[i], curve.views()));
     }
   }
   std::vector<MissionRow> rows;

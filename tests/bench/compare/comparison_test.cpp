@@ -193,7 +193,7 @@ TEST(Compare, AMissionThatDiesEarlyWinsNoVerdict) {
   EXPECT_EQ(dies.median, std::nullopt);
   EXPECT_NEAR(dies.estimate.mean, (7 * budget_m + 45.0) / 8, 1e-9);
   // with the profile the budget has it, too: 105 m
-  EXPECT_NEAR(find_figure(c, 0, "metres to 90 % of ceiling, with profile", 1)->estimate.mean,
+  EXPECT_NEAR(find_figure(c, 0, "metres to 90 % of ceiling, from take-off", 1)->estimate.mean,
               dies.estimate.mean + 105.0, 1e-9);
   // ranks: worst in seven seeds, best in the one where it got there
   EXPECT_DOUBLE_EQ(*dies.rank, (7 * 2 + 1) / 8.0);
@@ -220,8 +220,8 @@ TEST(Compare, EffortsWithTheProfileAddIt) {
   };
   EXPECT_EQ(mean("views to 80 % of ceiling"), 8.0);
   EXPECT_EQ(mean("metres to 80 % of ceiling"), 80.0);
-  EXPECT_EQ(mean("metres to 80 % of ceiling, with profile"), 185.0);
-  EXPECT_EQ(mean("seconds to 80 % of ceiling, with profile"), 68.0);
+  EXPECT_EQ(mean("metres to 80 % of ceiling, from take-off"), 185.0);
+  EXPECT_EQ(mean("seconds to 80 % of ceiling, from take-off"), 68.0);
   EXPECT_EQ(mean("views to 99 % of ceiling"), 10.0);
 }
 

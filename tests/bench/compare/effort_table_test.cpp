@@ -1,6 +1,8 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/bench/compare/paper_runs.hpp"
 
@@ -86,6 +88,49 @@ TEST(EffortTable, OfMissionsThatWereFlownForAShareTheLeastCounts) {
   EXPECT_EQ(std::ranges::count(whole.rows, "Oracle, few metres",
                                [](const auto& row) { return row[0].text; }),
             1);
+}
+
+/// A run of two views of 100 s each, after a profile of 100 s: what is reached within the budget of
+/// seconds is told from take-off; on one battery is nothing that is not reached.
+TEST(EffortTable, FromTakeOffHasTheProfileTheEnergyAndTheBattery) {
+  std::vector<RunFigures> runs;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    RunFigures& run = runs.emplace_back(reaching("proposed", seed, 50.0, true));
+    run.before = {.profile_m = 200.0, .transfer_m = 10.0, .profile_end_s = 100.0};
+    run.curve.seconds = {0.0, 100.0 * static_cast<double>(seed), 600.0};
+    run.curve.energy_wh = {5.0, 10.0 * static_cast<double>(seed), 40.0};
+    run.curve.on_one_battery = {true, seed != 2, false};
+    run.budgets = {0.0, 0.0, 250.0};
+    run.flight_time_s = 700.0;
+    run.energy_wh = 70.0;
+  }
+  const std::vector<MissionRow> rows = rows_of(runs, all_of_it());
+  for (const MissionRow& row : rows) {
+    for (const std::string_view share : kReachNames) {
+      const auto wh = row.find(figure_to_reach(Effort::wh_with_profile, share));
+      const auto seconds = row.find(figure_to_reach(Effort::seconds_with_profile, share));
+      EXPECT_EQ(std::isfinite(*wh), std::isfinite(*seconds));
+      EXPECT_LE(*row.find(fmt::format("{}{}", kOneBatteryTo, share)), std::isfinite(*wh));
+    }
+  }
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const auto of = [&](Effort effort) { return texts(effort_table(paper, effort, rows).rows[0]); };
+  EXPECT_EQ(of(Effort::metres_with_profile)[2], "260.0 (3 of 3), 260.0");
+  // the third is there after the budget, by when it would have drawn a tenth of its seconds
+  EXPECT_EQ(of(Effort::seconds_with_profile)[2], "300.0 (2 of 3), 283.3");
+  const Texts energy = of(Effort::wh_with_profile);
+  EXPECT_EQ(energy[2], "20.0 (2 of 3), 21.7");
+  EXPECT_EQ(energy[3], "1 of 3");  // the first; the third did not get there
+  EXPECT_EQ(energy[6], "- (0 of 3), 35.0");
+  EXPECT_EQ(energy[7], "0 of 3");
+  const TextTable at_95 = take_off_table(paper, rows);
+  EXPECT_EQ(texts(at_95.rows[0]), (Texts{"Proposed", "ours", "- (0 of 3), 350.0",
+                                         "310.0 (3 of 3), 310.0", "- (0 of 3), 35.0", "0 of 3"}));
+  // what one of them does not know is no number; what nobody knows is no column
+  std::vector<RunFigures> older = {runs[0], reaching("tour", 1, 50.0, true)};
+  EXPECT_EQ(all_texts(take_off_table(paper, rows_of(older, all_of_it())))[1][4], "-");
+  older[0].curve.energy_wh.clear();
+  EXPECT_EQ(take_off_table(paper, rows_of(older, all_of_it())).columns.size(), 4U);
 }
 
 TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {

@@ -133,8 +133,6 @@ TEST(ReferencePoints, OfADoubleWallLieOnTheOuterOne) {
   }
 }
 
-constexpr BeforeViews kBefore = {.profile_m = 100.0, .transfer_m = 7.0, .profile_end_s = 50.0};
-
 /// A cloud that grows by chance, sometimes not at all.
 CoverageCurve random_curve(std::uint64_t seed) {
   CoverageCurve curve;
@@ -157,25 +155,37 @@ TEST(EffortToReach, IsThatOfTheFirstEntryThatCoversSoMuch) {
     const CoverageCurve curve = random_curve(seed);
     for (int step = 0; step <= 40; ++step) {
       const double wanted = 0.03 * step;
-      const auto spent = effort_to_reach(curve, kBefore, wanted);
       std::size_t first = 0;
       while (first < curve.coverage.size() && curve.coverage[first][0] < wanted) ++first;
-      ASSERT_EQ(spent.has_value(), first < curve.coverage.size()) << "seed " << seed;
-      if (!spent) continue;
-      EXPECT_EQ(spent->views, static_cast<double>(first));
-      EXPECT_EQ(spent->metres, curve.metres[first]);
-      EXPECT_EQ(spent->metres_with_profile, 100.0 + (first > 0 ? 7.0 : 0.0) + curve.metres[first]);
-      EXPECT_EQ(spent->seconds, curve.seconds[first]);
-      EXPECT_EQ(spent->seconds_with_profile, 50.0 + curve.seconds[first]);
+      const auto reached = entry_that_covers(curve, wanted);
+      EXPECT_EQ(reached.value_or(curve.coverage.size()), first) << "seed " << seed;
     }
   }
 }
 
+/// Of metres also the way on from the profile, which only a view has taken.
+TEST(Effort, FromTakeOffIsWhatTheProfileTookAndWhatTheViewsDid) {
+  const BeforeViews before = {.profile_m = 100.0, .transfer_m = 7.0, .profile_end_s = 50.0};
+  CoverageCurve curve = random_curve(8);
+  EXPECT_FALSE(is_known(curve, Effort::wh_with_profile));
+  for (std::size_t n = 0; n < curve.coverage.size(); ++n) {
+    const auto at = [&](Effort effort) { return effort_at(curve, before, effort, n); };
+    EXPECT_EQ(at(Effort::views), static_cast<double>(n));
+    EXPECT_EQ(at(Effort::metres), curve.metres[n]);
+    EXPECT_EQ(at(Effort::metres_with_profile), 100.0 + (n > 0 ? 7.0 : 0.0) + curve.metres[n]);
+    EXPECT_EQ(at(Effort::seconds), curve.seconds[n]);
+    EXPECT_EQ(at(Effort::seconds_with_profile), 50.0 + curve.seconds[n]);
+  }
+  curve.energy_wh = {1.5, 2.5};
+  EXPECT_TRUE(is_known(curve, Effort::wh_with_profile));
+  EXPECT_EQ(effort_at(curve, before, Effort::wh_with_profile, 1), 2.5);
+}
+
 TEST(EffortToReach, NeedsACurve) {
-  EXPECT_THROW(effort_to_reach({}, kBefore, 0.5), BrokenInvariant);
+  EXPECT_THROW(entry_that_covers({}, 0.5), BrokenInvariant);
   CoverageCurve uneven = random_curve(8);
   uneven.metres.pop_back();
-  EXPECT_THROW(effort_to_reach(uneven, kBefore, 0.5), BrokenInvariant);
+  EXPECT_THROW(entry_that_covers(uneven, 0.5), BrokenInvariant);
 }
 
 /// Coverage of a view as a line through the origin: 0, 0.1, 0.2, ... with two metres and four

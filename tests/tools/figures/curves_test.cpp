@@ -16,7 +16,8 @@ TEST(Curves, AFigureCrossesAShareWhereTheTableSaysThatItWasReached) {
   run.figures->curve.metres = {0.0, 0.0, 3.5, 13.2, 20.0};
   const StepCurve steps = *coverage_steps(*run.figures, Effort::metres, 0.05);
   for (const double share : {0.35, 0.5, 0.8, 0.95}) {
-    const double reached_m = effort_to_reach(run.figures->curve, {}, share)->metres;
+    const CoverageCurve& curve = run.figures->curve;
+    const double reached_m = curve.metres[*entry_that_covers(curve, share)];
     EXPECT_GE(steps.at(reached_m), 100.0 * share);
     if (reached_m == 0.0) continue;
     EXPECT_LT(steps.at(reached_m - 1e-9), 100.0 * share);
@@ -34,6 +35,13 @@ TEST(Curves, TimeAndDistanceBothBeginWithTheFirstView) {
   EXPECT_EQ(coverage_steps(*run.figures, Effort::metres, 0.05)->x, (Values{0, 0, 7}));
   EXPECT_EQ(coverage_steps(*run.figures, Effort::seconds, 0.05)->x, (Values{0, 0, 15}));
   EXPECT_EQ(coverage_steps(*run.figures, Effort::views, 0.05)->x, (Values{0, 1, 2}));
+  // from take-off both have what went before
+  run.figures->before = {.profile_m = 100.0, .transfer_m = 20.0, .profile_end_s = 30.0};
+  EXPECT_EQ(coverage_steps(*run.figures, Effort::metres_with_profile, 0.05)->x,
+            (Values{100, 120, 127}));
+  EXPECT_EQ(coverage_steps(*run.figures, Effort::seconds_with_profile, 0.05)->x,
+            (Values{30, 90, 105}));
+  EXPECT_FALSE(coverage_steps(*run.figures, Effort::wh_with_profile, 0.05));
   EXPECT_FALSE(coverage_steps(*run.figures, Effort::views, 0.2));
   run.figures->more = {{.size_m = 0.2, .curve = {0.5, 0.6, 0.7}}};
   EXPECT_EQ(coverage_steps(*run.figures, Effort::views, 0.2)->y, (Values{50, 60, 70}));

@@ -233,9 +233,17 @@ async function plotsTellRunsApart() {
 
 /** A link shows what its sender saw, also nothing; a link that makes no sense shows the page. */
 async function linksShow() {
-  for (const [by, name] of [["metres", "Metres"], ["seconds", "Seconds"], ["views", "Views"]]) {
+  for (const [by, name] of [["metres", "Metres"], ["seconds", "Seconds"],
+    ["metres_with_profile", "From take-off: m"], ["seconds_with_profile", "s"],
+    ["wh_with_profile", "Wh"], ["views", "Views"]]) {
     await page.go(`#by=${by}&at=1`);
     assert.equal(await page.textOf(".choice [aria-pressed=true]"), name);
+    if (!by.includes("_")) continue;
+    // the profile is no view, and what it covered is told while no view is
+    assert.match(await page.textOf(".readout"), /After the profile/);
+    assert.ok((await valuesOf(1)).some((value) => value !== "–"), by);
+    await page.go(`#by=${by}&at=1e9`);
+    assert.match(await page.textOf(".readout"), /View \d+ of \d+/);
   }
   await page.go("#layers=missed");
   for (const key of ["a", "w", "+", "l", "i"]) {

@@ -337,6 +337,23 @@ TEST_F(ReportTest, PlotsHaveTheRunsAndTheMeanOfTheirSeeds) {
   EXPECT_EQ(numbers(over_metres, "x"), (Numbers{0, 2, 4, 6}));
   EXPECT_EQ(over_metres["y"], runs[1]["y"]) << "the same numbers stand in the page once";
   EXPECT_EQ(numbers(coverage_series(report, 0, "means")[0].back(), "y"), (Numbers{20, 40, 50, 60}));
+  // from take-off of those that know it: energy of none of these
+  EXPECT_TRUE(data_of(report)["plots"][0]["choices"][0]["runs"][5]["panels"].empty());
+  two.figures->before.profile_end_s = 30.0;
+  two.figures->curve.energy_wh = {1, 2, 3, 4};
+  const Report some = report_of({one, two});
+  const auto spent = [&](std::size_t run) {
+    std::vector<Numbers> all;
+    const Json data = data_of(some);
+    for (const Json& list : data["runs"][run]["views"]["from_take_off"]) {
+      all.push_back(test::numbers(list, bytes_of(some)));
+    }
+    return all;
+  };
+  EXPECT_EQ(spent(0), (std::vector<Numbers>{{0, 2, 4, 6}, {0, 5, 10, 15}, {}}));
+  EXPECT_EQ(spent(1), (std::vector<Numbers>{{0, 2, 4, 6}, {30, 35, 40, 45}, {1, 2, 3, 4}}));
+  EXPECT_EQ(coverage_series(some, 5)[0].size(), 1U);
+  EXPECT_EQ(coverage_series(some, 5, "means")[0].size(), 1U);
   two.scenario.planner.preset = "released";
   EXPECT_TRUE(coverage_series(report_of({one, two}), 0, "means").empty());
 }

@@ -41,6 +41,7 @@ ViewRecord odd_view(int iteration) {
   view.straight_m = 1e-9;
   view.flown_m = 12345.678901234567;
   view.time_s = 0.004 * 1234567;
+  view.energy_wh = 4.0 / 13.0 + iteration;
   view.wall = {.sense_s = 0.25, .map_s = 1e-6, .plan_s = 123.456789, .fly_s = 0.0};
   return view;
 }
@@ -60,10 +61,23 @@ TEST(RoundTrip, IterationsCsv) {
   EXPECT_EQ(read[1].entropy_nat, views[1].entropy_nat);
   EXPECT_EQ(read[1].wall.plan_s, 123.456789);
   EXPECT_EQ(read[0].decision.sampler, Sampler::start);
+  EXPECT_FALSE(read[1].energy_wh) << "none of runs of older versions";
+  for (const bool gimbal : {false, true}) {
+    write_file_atomically(csv, iterations_csv(views, {.gimbal = gimbal, .energy = true}));
+    EXPECT_EQ(read_view_records(csv).at(1).energy_wh, views[1].energy_wh);
+  }
+  write_file_atomically(csv, iterations_csv(read, {.energy = true}));
+  EXPECT_FALSE(read_view_records(csv).at(1).energy_wh) << "and is not nothing";
   ViewRecord turned = odd_view(0);
   turned.decision.view.gimbal_pitch_rad = 0.1 + 0.2;
   write_file_atomically(csv, iterations_csv(std::vector{turned}, Columns{.gimbal = true}));
   EXPECT_EQ(read_view_records(csv).at(0).decision.view.gimbal_pitch_rad, 0.1 + 0.2);
+  // an older record is as good as what it knows; what it does not know is in no hash of it
+  EXPECT_FALSE(first_difference(views[1], read[1]));
+  EXPECT_NE(views_sha256(views), views_sha256(read));
+  ViewRecord thirsty = views[1];
+  *thirsty.energy_wh *= 2.0;
+  EXPECT_EQ(first_difference(thirsty, views[1])->column, "energy_wh");
   // the second view of a burst: what tells of its decision tells of the first
   std::vector<ViewRecord> burst = {odd_view(0), odd_view(1), odd_view(2)};
   const std::string decided_alone = views_sha256(burst);
@@ -105,6 +119,21 @@ TEST(RoundTrip, CoverageCsv) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(whole.more_curves[i], more[i].curve);
     EXPECT_EQ(whole.more_accurate[i], more_of_both[i].accurate_curve);
+  }
+  // and with energy, likewise
+  EXPECT_TRUE(whole.curve.energy_wh.empty());
+  for (CoverageCurve fed : {curve, both}) {
+    fed.energy_wh = {1.0 / 3.0, 12.0 / 7.0};
+    fed.on_one_battery = {true, false};
+    write_file_atomically(csv, coverage_csv(fed, fed.accurate.empty() ? more : more_of_both));
+    const CoverageFile again = read_coverage_csv(csv);
+    EXPECT_EQ(again.curve.energy_wh, fed.energy_wh);
+    EXPECT_EQ(again.curve.on_one_battery, fed.on_one_battery);
+    EXPECT_EQ(again.curve.accurate, fed.accurate);
+    EXPECT_EQ(again.more_curves[1], more[1].curve);
+    fed.energy_wh.back() = 0.3;
+    write_file_atomically(csv, coverage_csv(fed, more_of_both));
+    EXPECT_TRUE(says(fault_of([&] { read_coverage_csv(csv); }), {"coverage.csv:3: 0.3 Wh after"}));
   }
   write_file_atomically(csv, coverage_csv(curve));
   EXPECT_TRUE(read_coverage_csv(csv).more_names.empty());
@@ -293,11 +322,19 @@ TEST(RoundTrip, EffortsAreThereWhenTheCeilingIsKnown) {
   rescore_summary(run, made.score);
   EXPECT_EQ(read_run_figures(run).ceiling, 0.42);
   const nlohmann::json efforts = json().at("effort_to_reach");
-  EXPECT_EQ(efforts.at("0.95"), nlohmann::json::parse(R"({"views": 2, "metres": 1.0,
-    "metres_with_profile": 13.0, "seconds": 2.0, "seconds_with_profile": 32.0})"));
+  auto at_95 = nlohmann::json::parse(R"({"views": 2, "metres": 1.0, "seconds": 2.0,
+    "metres_with_profile": 13.0, "seconds_with_profile": 32.0, "wh_with_profile": null,
+    "on_one_battery": null})");
+  EXPECT_EQ(efforts.at("0.95"), at_95);
   EXPECT_EQ(efforts.at("0.80").at("views"), 2);
   EXPECT_TRUE(efforts.at("0.98").is_null());  // 0.4116 of the final 0.4
   EXPECT_EQ(efforts.size(), 5U);
+  made.score.curve.energy_wh = {1.0, 1.5, 2.5};
+  made.score.curve.on_one_battery = {true, true, false};
+  rescore_summary(run, made.score);
+  at_95["wh_with_profile"] = 2.5;
+  at_95["on_one_battery"] = false;
+  EXPECT_EQ(json().at("effort_to_reach").at("0.95"), at_95);
 }
 
 TEST(RoundTrip, AnOlderScoreLeavesNothingBehind) {

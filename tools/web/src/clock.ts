@@ -2,16 +2,20 @@
 import { MathUtils } from "three";
 import { lastAtMost, type Flight } from "./flight";
 
-export type Effort = "views" | "metres" | "seconds";
+export type Effort = "views" | "metres" | "seconds" | "metres_with_profile"
+  | "seconds_with_profile" | "wh_with_profile";
+/** In the order of figures. */
 export const kEfforts: [Effort, string][] =
-  [["views", "Views"], ["metres", "Metres"], ["seconds", "Seconds"]];
+  [["views", "Views"], ["metres", "Metres"], ["seconds", "Seconds"],
+    ["metres_with_profile", "From take-off: m"], ["seconds_with_profile", "s"],
+    ["wh_with_profile", "Wh"]];
 
 /** A whole replay at speed 1: half a second a view, but neither a flash nor an evening. */
 const replayLasts_s = (views: number) => MathUtils.clamp(0.5 * views, 8, 60);
 
 export class Clock {
   effort: Effort = "views";
-  at = 0; // in the unit of `effort`; below 0: after the profile, before whatever counts
+  at = 0; // in the unit of `effort`; at begin(): after the profile, before whatever counts
   isPlaying = false;
   speed = 1;
   private frame = 0; // that is asked for while it plays
@@ -22,16 +26,26 @@ export class Clock {
 
   setFlights(flights: Flight[]) {
     this.flights = flights;
+    this.effort = this.known(this.effort);
     this.set({ at: MathUtils.clamp(this.at, this.begin(), this.last()) });
   }
 
   /**
-   * After the profile. Metres and seconds may be 0 at the first view, too, so that the moment
-   * before has a place of its own, a hundredth of the mission before 0.
+   * Metres and seconds may be as many after the profile as at the first view, so that the moment
+   * before has a place of its own, so much before: a hundredth of the mission.
    */
-  begin(effort: Effort = this.effort): number {
-    return effort === "views" ? 0 : -Math.max(0.01 * this.last(effort), 1e-3);
+  room(effort: Effort = this.effort): number {
+    return effort === "views" ? 0 : Math.max(0.01 * this.last(effort), 1e-3);
   }
+
+  /** After the profile, of the first run to end it. */
+  begin(effort: Effort = this.effort): number {
+    const ends = this.flights.map((flight) => flight.effort(0, effort));
+    return Math.min(this.last(effort), ...ends) - this.room(effort);
+  }
+
+  /** Of all runs. */
+  knows(effort: Effort): boolean { return this.flights.every((flight) => flight.knows(effort)); }
 
   /** Of the longest run. */
   last(effort: Effort = this.effort): number {
@@ -39,7 +53,8 @@ export class Clock {
   }
 
   /** The same moment of the first run, measured otherwise. */
-  setEffort(effort: Effort) {
+  setEffort(wanted: Effort) {
+    const effort = this.known(wanted);
     const [lead] = this.flights;
     const n = lead?.n ?? 0;
     this.set({ effort, at: n > 0 ? lead.effort(n, effort) : this.begin(effort), isPlaying: false });
@@ -83,6 +98,8 @@ export class Clock {
     cancelAnimationFrame(this.frame);
     this.frame = requestAnimationFrame(advance);
   }
+
+  private known(effort: Effort): Effort { return this.knows(effort) ? effort : "views"; }
 
   private set(change: Partial<Pick<Clock, "effort" | "at" | "isPlaying">>) {
     Object.assign(this, change);

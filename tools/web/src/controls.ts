@@ -37,7 +37,10 @@ export function makeTransport(clock: Clock, readout: HTMLElement): HTMLElement {
     slider.setAttribute("aria-valuetext", readout.textContent ?? "");
     play.setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
     play.textContent = clock.isPlaying ? "\u23f8\ufe0e" : "\u25b6\ufe0e";
-    for (const button of efforts) button.ariaPressed = String(button.value === clock.effort);
+    for (const [i, [value]] of kEfforts.entries()) {
+      efforts[i].ariaPressed = String(value === clock.effort);
+      efforts[i].hidden = !clock.knows(value);
+    }
   };
   clock.onChange(update);
   update();

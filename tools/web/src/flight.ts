@@ -36,9 +36,11 @@ export class Flight {
 
   constructor(readonly data: RunData, readonly index: number, private readonly clock: Clock) {
     const { views, path, cameras, workspace_min, workspace_max } = data;
+    const [metres, seconds, wh] = views.from_take_off.map((spent) => [...spent]);
     this.count = views.time.length;
     this.efforts = { views: [...Array(this.count + 1).keys()], metres: [0, ...views.metres],
-      seconds: [0, ...views.seconds] };
+      seconds: [0, ...views.seconds], metres_with_profile: metres ?? [],
+      seconds_with_profile: seconds ?? [], wh_with_profile: wh ?? [] };
     this.points = path && path.points;
     this.times = [data.profile_end_s ?? path?.time[0] ?? views.time[0] ?? 0, ...views.time];
     this.workspace = new Box3(new Vector3(...workspace_min), new Vector3(...workspace_max));
@@ -47,6 +49,7 @@ export class Flight {
     this.sight_m = Math.min(this.range_m, 0.25 * this.size_m);
   }
 
+  knows(effort: Effort): boolean { return this.efforts[effort].length > 0; }
   /** After `n` views. */
   effort(n: number, effort: Effort): number { return this.efforts[effort][n]; }
   last(effort: Effort): number { return this.efforts[effort][this.count]; }
@@ -62,10 +65,10 @@ export class Flight {
       + number(this.planOf(view + 1));
   }
 
-  /** How many views there were by now: the clock is below 0 before the first one. */
+  /** How many views there were by now. */
   get n(): number {
     const { at, effort } = this.clock;
-    return at < 0 ? 0 : Math.max(0, lastAtMost(this.efforts[effort], at + 1e-9));
+    return Math.max(0, lastAtMost(this.efforts[effort], at + 1e-9));
   }
 
   /** Now of the mission, in seconds; between two views as far as the effort between is spent. */

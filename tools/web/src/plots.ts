@@ -149,14 +149,14 @@ class PlotView {
   }
 
   /** The replay's place, and the values at `at`. */
-  follow(now: number, at: number) {
+  follow(now: number, at: number, room: number) {
     if (this.width === 0) return;
     const { x: { high } } = this.panels.at(-1)!;
     const px = kLeft + (this.width - kLeft - kRight) * Math.max(0, now) / high;
     this.now.style.left = `${100 * px / this.width}%`; // also where it is printed narrower
     for (const { value, series: { mark: kind, x, y, low, high: most } } of this.named) {
       let k = kind === "level" ? 0 : lastAtMost(x, at + 1e-9);
-      if (k < 0 && x[0] === 0) k = 0; // after the profile alone
+      if (k < 0 && x[0] <= at + room + 1e-9) k = 0; // after the profile alone
       while (k >= 0 && Number.isNaN(y[k])) --k;
       const range = k >= 0 && low.length > 0 ? ` (${valueText(low[k])} to ${valueText(most[k])})` : "";
       value.textContent = k < 0 ? "–" : valueText(y[k]) + range;
@@ -234,7 +234,8 @@ export class Plots {
 
   /** The replay's place, and the values there while no cursor asks for others. */
   private follow() {
-    for (const view of this.views) view.follow(this.clock.at, this.hovered ?? this.clock.at);
+    const { at } = this.clock;
+    for (const view of this.views) view.follow(at, this.hovered ?? at, this.clock.room());
   }
 
   private fit(width?: number) {

@@ -100,7 +100,9 @@ def draw(figure: Figure, axes: Sequence[Axes] | None = None) -> list[Axes]:
 def coverage(
     runs: Runs, *, effort: str = "metres", end: bool = False, ax: Axes | None = None, **options: Any
 ) -> Axes:
-    """Coverage over "views", "metres" or "seconds", of many runs; `end`: its last 15 %."""
+    """Coverage over "views", "metres" or "seconds", of many runs; `end`: its last 15 %.
+
+    From take-off: "metres_with_profile", "seconds_with_profile", "wh_with_profile"."""
     name = f"coverage-{effort}" + ("-end" if end else "")
     return _one(runs, "coverage", name, ax, options)
 
