@@ -2,7 +2,6 @@
 // and its budget, and nothing depends on the number of threads.
 #include "tools/page/packs.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
