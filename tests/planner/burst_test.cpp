@@ -363,50 +363,6 @@ TEST(Burst, IsTriedAgainAsOftenAsTheMissionMay) {
   }
 }
 
-TEST(Burst, BeginsWhenTheVoxelsInViewHaveHardlyChanged) {
-  // a quarter of a frustum of 60 by 45 degrees from 0.5 to 8 m in voxels of 0.2 m
-  const std::vector<CameraConfig> cameras(2, {.range_min_m = 0.5});
-  const PlannerModel model = make_model({}, kWorkspace, cameras, {});
-  const double voxels = voxels_in_view(VoxelsInView::quarter_frustum, model);
-  EXPECT_NEAR(voxels, 5100.0, 5.0);  // the authors' number
-  EXPECT_NEAR(voxels_in_view(VoxelsInView::frusta, model), 8.0 * voxels, 0.001 * 8.0 * voxels);
-  // the last change does not count, nor the one before the three that do
-  History history;
-  history.entropies_nat = {1000.0, 900.0, 890.0, 880.0, 870.0, 500.0};
-  EXPECT_TRUE(is_entropy_still(0.002, 3, 1, history, 5100.0));
-  EXPECT_FALSE(is_entropy_still(0.002, 3, 0, history, 5100.0));
-  EXPECT_FALSE(is_entropy_still(0.002, 4, 1, history, 5100.0));
-  EXPECT_FALSE(is_entropy_still(0.0019, 3, 1, history, 5100.0));
-  history.entropies_nat.erase(history.entropies_nat.begin(), history.entropies_nat.begin() + 2);
-  EXPECT_FALSE(is_entropy_still(0.002, 3, 1, history, 5100.0)) << "two changes only";
-}
-
-TEST(LookAgain, IsAViewFromHereWhereNoneHasAUtilityAndTheScaleGrows) {
-  // far from the wall, looking away from it
-  const ViewPose away{Vec3(-7.5, 0.1, 4.1), kPi};
-  for (const bool looks_again : {false, true}) {
-    const SmallPlanner small([&](PlannerConfig& c) {
-      c.agvs.look_again = looks_again;
-      c.fvs.enabled = false;
-      c.agvs.scale_max = 1.5;
-    });
-    const Belief belief = thin_wall_ahead(small);
-    const Plan plan = small.plan(belief, {}, 2, away);
-    ASSERT_EQ(plan.has_view(), looks_again);
-    EXPECT_TRUE(small.plan(belief, {}).next().score.value > 0.0) << "in sight of the wall";
-    if (!looks_again) continue;
-    const Decision& again = plan.next();
-    EXPECT_TRUE(is_same_view(again.view, away));
-    EXPECT_EQ(again.score.value, 0.0);
-    EXPECT_EQ(again.scale, 1.0);
-    EXPECT_EQ(again.candidates, 82);
-    EXPECT_EQ(plan.candidates.size(), 82U);
-    History history;
-    history.decisions.assign(3, again);
-    EXPECT_EQ(small.plan(belief, history, 2, away).next().scale, 1.5);
-  }
-}
-
 TEST(Culling, SeesByTheMapOrByTheFront) {
   const SmallPlanner small = burst_planner();
   // a patch, and one 0.6 m behind it

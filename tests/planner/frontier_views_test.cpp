@@ -242,5 +242,23 @@ TEST(FrontierViews, AreReachedOnAWayAroundBeforeTheMissionEnds) {
   }
 }
 
+TEST(LocalMinimum, IsWhereTheVoxelsInViewHaveHardlyChanged) {
+  // a quarter of a frustum of 60 by 45 degrees from 0.5 to 8 m in voxels of 0.2 m
+  const std::vector<CameraConfig> cameras(2, {.range_min_m = 0.5});
+  const PlannerModel model = make_model({}, kWorkspace, cameras, {});
+  const double voxels = voxels_in_view(VoxelsInView::quarter_frustum, model);
+  EXPECT_NEAR(voxels, 5100.0, 5.0);  // the authors' number
+  EXPECT_NEAR(voxels_in_view(VoxelsInView::frusta, model), 8.0 * voxels, 0.001 * 8.0 * voxels);
+  // the last change does not count, nor the one before the three that do
+  History history;
+  history.entropies_nat = {1000.0, 900.0, 890.0, 880.0, 870.0, 500.0};
+  EXPECT_TRUE(is_entropy_still(0.002, 3, 1, history, 5100.0));
+  EXPECT_FALSE(is_entropy_still(0.002, 3, 0, history, 5100.0));
+  EXPECT_FALSE(is_entropy_still(0.002, 4, 1, history, 5100.0));
+  EXPECT_FALSE(is_entropy_still(0.0019, 3, 1, history, 5100.0));
+  history.entropies_nat.erase(history.entropies_nat.begin(), history.entropies_nat.begin() + 2);
+  EXPECT_FALSE(is_entropy_still(0.002, 3, 1, history, 5100.0)) << "two changes only";
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -180,5 +180,31 @@ TEST(Planner, EndsItsWorkWhereSomebodyWantsItToStop) {
   }
 }
 
+TEST(LookAgain, IsAViewFromHereWhereNoneHasAUtilityAndTheScaleGrows) {
+  // far from the wall, looking away from it
+  const ViewPose away{Vec3(-7.5, 0.1, 4.1), kPi};
+  for (const bool looks_again : {false, true}) {
+    const SmallPlanner small([&](PlannerConfig& c) {
+      c.agvs.look_again = looks_again;
+      c.fvs.enabled = false;
+      c.agvs.scale_max = 1.5;
+    });
+    const Belief belief = thin_wall_ahead(small);
+    const Plan plan = small.plan(belief, {}, 2, away);
+    ASSERT_EQ(plan.has_view(), looks_again);
+    EXPECT_TRUE(small.plan(belief, {}).next().score.value > 0.0) << "in sight of the wall";
+    if (!looks_again) continue;
+    const Decision& again = plan.next();
+    EXPECT_TRUE(is_same_view(again.view, away));
+    EXPECT_EQ(again.score.value, 0.0);
+    EXPECT_EQ(again.scale, 1.0);
+    EXPECT_EQ(again.candidates, 82);
+    EXPECT_EQ(plan.candidates.size(), 82U);
+    History history;
+    history.decisions.assign(3, again);
+    EXPECT_EQ(small.plan(belief, history, 2, away).next().scale, 1.5);
+  }
+}
+
 }  // namespace
 }  // namespace gnbv

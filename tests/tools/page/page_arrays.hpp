@@ -1,10 +1,13 @@
-// Arrays of a page read back as a browser reads them: by what the JSON says of each.
+// Arrays of a page read back as a browser reads them, by what the JSON says of each; points for
+// them.
 #pragma once
 
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "sim/core/rng.hpp"
 #include "tools/page/arrays.hpp"
 
 namespace gnbv::test {
@@ -53,6 +56,25 @@ inline std::vector<double> numbers(const nlohmann::ordered_json& json,
 template <typename Array>
 std::vector<double> numbers(const Array& array, const page::Arrays& arrays) {
   return numbers(nlohmann::ordered_json(array), arrays.bytes());
+}
+
+/// In a cube of `size_m`.
+inline std::vector<Vec3f> random_points(std::size_t count, float size_m, std::uint64_t seed) {
+  std::vector<Vec3f> points;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto at = [&](std::uint64_t axis) {
+      return size_m * static_cast<float>(uniform01({seed, Stream::bench, i, axis}));
+    };
+    points.emplace_back(at(0), at(1), at(2));
+  }
+  return points;
+}
+
+/// Points on a wavy sheet of 10 m by 10 m.
+inline std::vector<Vec3f> sheet(std::size_t count) {
+  std::vector<Vec3f> points = random_points(count, 10.0F, 7);
+  for (Vec3f& p : points) p = {p.x() - 5.0F, p.y() - 5.0F, std::sin(p.x() - 5.0F) - 3.0F};
+  return points;
 }
 
 }  // namespace gnbv::test

@@ -3,7 +3,9 @@
 
 #include <cstdlib>
 #include <functional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "sim/core/file.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tools/render/caption.hpp"
+#include "tools/scene/decision.hpp"
 
 namespace gnbv {
 namespace {
@@ -185,6 +188,59 @@ TEST(Colour, RampsRunFromFirstToLastAndSrgbRoundTrips) {
   EXPECT_EQ(to_rgb8(path_ramp(0.0)), (Rgb8{0x2b, 0x0f, 0x8a}));
   EXPECT_EQ(to_rgb8(path_ramp(1.0)), (Rgb8{0xf9, 0xa0, 0x1f}));
   EXPECT_EQ(to_rgb8(srgb(0x0180fe)), (Rgb8{0x01, 0x80, 0xfe}));
+}
+
+TEST(PlaceMarks, NoBadgeLiesOnAnother) {
+  const RenderView view{
+      .width_px = 400, .height_px = 300, .T_world_camera = look_at({0, -10, 0}, {0, 0, 0})};
+  const auto badge_px = [&](std::initializer_list<double> places) {
+    Panel panel;
+    for (const double x : places) panel.labels.push_back({Vec3(x, 0, 0), "1", srgb(0x005ac8)});
+    Image image = paper(400, 300, 200);
+    draw_place_marks(panel, view, 1.0, true, image);
+    int count = 0;
+    for (int y = 0; y < 300; ++y) {
+      for (int x = 0; x < 400; ++x) count += image.at(x, y) == Rgb8{0, 0x5a, 0xc8} ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(badge_px({0.0, 0.1}), badge_px({0.0}));
+  EXPECT_NEAR(badge_px({0.0, 1.0}), 2 * badge_px({0.0}), 0.2 * badge_px({0.0}));
+}
+
+/// What a page draws by name has a name of its own, and a layer that there is.
+TEST(Looks, HaveNamesOfTheirOwnAndKnownLayers) {
+  std::set<std::string_view> names, layers{""};
+  for (const SceneLayer& layer : scene_layers()) EXPECT_TRUE(layers.insert(layer.name).second);
+  for (const Look* const look : all_looks()) {
+    EXPECT_TRUE(names.insert(look->name).second) << look->name;
+    EXPECT_TRUE(layers.contains(look->layer)) << look->name;
+  }
+}
+
+/// Hues alone would not do for everybody: Oklab distances (Ottosson 2020).
+TEST(Looks, TheColoursOfReasonsAndMarksStandApart) {
+  std::vector<Rgb> colours = {looks::kChosen.rgb(), looks::kRayHit.rgb()};
+  for (const RejectionLook& look : rejection_looks()) {
+    EXPECT_EQ(static_cast<std::size_t>(look.rejection), colours.size() - 2);  // in their order
+    colours.push_back(look.rgb());
+  }
+  const auto oklab = [](const Rgb& c) {
+    const Vec3 rgb(c[0], c[1], c[2]);
+    const Eigen::Matrix3d lms{{0.4122214708, 0.5363325363, 0.0514459929},
+                              {0.2119034982, 0.6806995451, 0.1073969566},
+                              {0.0883024619, 0.2817188376, 0.6299787005}};
+    const Eigen::Matrix3d lab{{0.2104542553, 0.7936177850, -0.0040720468},
+                              {1.9779984951, -2.4285922050, 0.4505937099},
+                              {0.0259040371, 0.7827717662, -0.8086757660}};
+    return Vec3(lab * Vec3(lms * rgb).array().pow(1.0 / 3.0).matrix());
+  };
+  constexpr double kApart = 0.13;  // six times what is just noticed side by side
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GT((oklab(colours[i]) - oklab(colours[k])).norm(), kApart) << i << " and " << k;
+    }
+  }
 }
 
 }  // namespace
