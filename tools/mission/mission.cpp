@@ -63,6 +63,7 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   if (m.scenario.guidance.trajectory == Trajectory::smooth) {
     if (!m.corners.empty()) m.exits = m.corners;
     over = fly_past(m, next, look);
+    if (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) come_to_rest(m);
   } else {
     for (const Vec3& via_m : next.via_world_m) {
       legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});

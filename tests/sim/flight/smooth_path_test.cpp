@@ -74,8 +74,8 @@ TEST(SmoothPath, PassesEachPoseInOrderAndRestsAtTheLast) {
 
 /// A point that is only on the way slows nobody down.
 TEST(SmoothPath, IsAsFastAsARestToRestOnAStraightWayWhateverLiesOnIt) {
-  const RestToRest legs(20.0, {kGuidance.path_speed_m_s, kGuidance.acceleration_m_s2,
-                               kGuidance.jerk_m_s3});
+  const RestToRest legs(
+      20.0, {kGuidance.path_speed_m_s, kGuidance.acceleration_m_s2, kGuidance.jerk_m_s3});
   std::vector<PassedPose> poses;
   for (int i = 1; i <= 10; ++i) poses.push_back({{Vec3(2.0 * i, 0, 5), 0.0}, i % 2 == 0});
   const double seconds = kReference_s * static_cast<double>(way_past(poses).size());
