@@ -89,7 +89,7 @@ bool find_way(Mission& m, const Decision& next) {
   return take_way(m, std::span(poses).first(to_view), 0.5 * speed_m_s);
 }
 
-/// To a stop, straight on; along the way at hand where that is clear and the straight is not.
+/// To a stop, straight on; along the way at hand while that is clear and the straight is not.
 std::optional<Termination> stop(Mission& m, bool is_way_clear,
                                 const std::function<void(const Flight&)>& on_tick) {
   const Reference now = reference_now(m);
@@ -100,11 +100,15 @@ std::optional<Termination> stop(Mission& m, bool is_way_clear,
                          false};
   auto path = smooth_path(now, {&at, 1}, m.scenario.guidance.path_speed_m_s, m.scenario.guidance,
                           m.scenario.vehicle);
-  if (!is_way_clear || is_way_free(m, now.p_world_m, path)) {
+  const bool keeps_to_way = is_way_clear && !is_way_free(m, now.p_world_m, path) &&
+                            is_way_free(m, now.p_world_m, std::span(m.path).subspan(m.path_at));
+  if (!keeps_to_way) {
     m.path = std::move(path);
     m.path_at = 0;
   }
-  const auto end = fly_on(m, kAll, on_tick, false);
+  const auto end = fly_on(m, kAll, on_tick, keeps_to_way);
+  const auto* const flown = std::get_if<WayEnd>(&end);
+  if (flown != nullptr && *flown == WayEnd::blocked) return stop(m, false, on_tick);
   const auto* const over = std::get_if<Termination>(&end);
   return over != nullptr ? std::optional(*over) : std::nullopt;
 }
