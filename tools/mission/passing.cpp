@@ -119,6 +119,7 @@ void set_current(Mission& m, double gimbal_pitch_rad) {
   m.current = {T.translation(), yaw_of(T), gimbal_pitch_rad};
 }
 
+/// By legs that are free from here; a view that no such legs lead to is given up.
 std::optional<Termination> fly_legs(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
   m.path.clear();
@@ -126,7 +127,15 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
   std::vector<ViewPose> legs;
   for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad});
   legs.push_back(next.view);
+  const FreeSpace space = free_space(m);
   for (const ViewPose& leg : legs) {
+    // the way was planned from where the vehicle was before it stopped
+    const Vec3 here_m = m.flight->estimate().T_world_body.translation();
+    if (!space.is_leg_free(here_m, leg.p_world_m)) {
+      set_current(m, m.gimbal_pitch_rad);
+      ++m.out.legs_timed_out;
+      return std::nullopt;
+    }
     const auto over = fly_leg(m, leg, m.scenario.guidance.path_speed_m_s, on_tick);
     if (over) return over;
   }
