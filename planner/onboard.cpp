@@ -41,12 +41,18 @@ PlannerSources sources_of(OnboardSettings& settings) {
   return {.user_scores = scores};
 }
 
+PlannerModel model_of(const OnboardSettings& settings, const PlannerConfig& config) {
+  PlannerModel model = make_model(config, settings.workspace_m, settings.cameras, settings.lidars,
+                                  settings.seed, settings.no_fly);
+  model.travel = settings.travel;
+  return model;
+}
+
 }  // namespace
 
 Onboard::Onboard(OnboardSettings settings)
     : config_(checked(settings)),
-      model_(make_model(config_, settings.workspace_m, settings.cameras, settings.lidars,
-                        settings.seed, settings.no_fly)),
+      model_(model_of(settings, config_)),
       planner_(make_planner(config_, model_, sources_of(settings))),
       scratch_(model_, settings.threads),
       belief_(model_) {

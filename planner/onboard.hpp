@@ -31,6 +31,7 @@ struct OnboardSettings {
   PlannerConfig planner = {};                  // planner.utility.name chooses the planner
   std::optional<OnboardUtility> utility = {};  // instead of the one that `planner` names
   NoFly no_fly = {};
+  TravelConfig travel = {};
   std::uint64_t seed = 0;  // of what a planner leaves to chance
   int threads = 1;         // no answer depends on it
   /// Asked several times a second while a view is planned, by any thread. Where it says yes,

@@ -97,6 +97,9 @@ void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scan
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,
                     Belief& belief) {
   if (frames.empty()) return;
+  for (const DepthFrame& frame : frames) {
+    belief.frame_poses.push_back({frame.camera, frame.T_world_camera});
+  }
   std::vector<FrameRays>& rays = scratch.frame_rays;
   rays.resize(frames.size());
   const auto camera_of = [&](std::size_t i) -> const CameraModel& {

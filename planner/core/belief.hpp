@@ -57,12 +57,19 @@ struct PlannerModel {
   bool can_pitch(double gimbal_pitch_rad) const;
 };
 
+/// Where a camera took a frame, as believed.
+struct FramePose {
+  int camera = 0;
+  Isometry T_world_camera = Isometry::Identity();  // optical frame
+};
+
 struct Belief {
   explicit Belief(const PlannerModel& model);
 
   OccupancyGrid grid;
   SurfaceCloud cloud;
   SurfaceCloud ranged;  // what LIDARs saw between views: surface to look at, which covers nothing
+  std::vector<FramePose> frame_poses;  // in their order
   ShadowBand shadow;
   double floor_z_m;               // returns below were taken for the floor
   bool has_depth_return = false;  // any camera has seen a surface

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
 #include "sim/core/pose.hpp"
+#include "sim/core/rest_to_rest.hpp"
 
 namespace gnbv {
 
@@ -58,14 +60,20 @@ struct NoFly {
 
 /// How fast the vehicle flies and turns, as far as a planner counts on it.
 struct TravelConfig {
-  bool passes_views = false;  // else it stops at each
   double speed_m_s = 2.0;
-  double acceleration_m_s2 = 1.0;
   double yaw_rate_rad_s = deg_to_rad(60.0);
   double yaw_acceleration_rad_s2 = deg_to_rad(120.0);
 
+  /// A way that is not turned off: the mean speed is 0.9 of the top speed.
+  double way_s(double way_m) const { return way_m / (0.9 * speed_m_s); }
   /// From rest to rest.
-  double turn_s(double turn_rad) const;
+  double turn_s(double turn_rad) const {
+    return rest_to_rest_s(std::abs(turn_rad), yaw_rate_rad_s, yaw_acceleration_rad_s2);
+  }
+  /// Both at once.
+  double leg_s(double way_m, double turn_rad) const {
+    return std::max(way_s(way_m), turn_s(turn_rad));
+  }
 };
 
 /// Asked several times a second by what may take long: throws to end it. Empty: nobody asks.

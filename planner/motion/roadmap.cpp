@@ -55,11 +55,11 @@ Roadmap::Node Roadmap::add(const Vec3& p_world_m) {
 
 Roadmap::Node Roadmap::nearest(const Vec3& p_world_m) const {
   const Vec3 steps = (p_world_m - p_world_m_[1]) / step_m_;
-  std::array<std::int32_t, 3> at;
+  Key at;
   for (int a = 0; a < 3; ++a) {
     at[a] = std::clamp(static_cast<std::int32_t>(std::lround(steps[a])), 0, lattice_size_[a] - 1);
   }
-  return static_cast<Node>(1 + (at[2] * lattice_size_[1] + at[1]) * lattice_size_[0] + at[0]);
+  return lattice_node(at);
 }
 
 void Roadmap::link(Node a, Node b) {
@@ -72,14 +72,12 @@ void Roadmap::link(Node a, Node b) {
 void Roadmap::link_lattice(const HeedStop& stop) {
   const auto& n = lattice_size_;
   const KeyBox lattice = {{0, 0, 0}, {n[0] - 1, n[1] - 1, n[2] - 1}};
-  const auto node = [&](const Key& at) {
-    return static_cast<Node>(1 + (at[2] * n[1] + at[1]) * n[0] + at[0]);
-  };
   for_each_key(lattice, [&](const Key& at) {
-    if (is_open_[node(at)] == 0) return;
+    const Node node = lattice_node(at);
+    if (is_open_[node] == 0) return;
     heed(stop);
     for_each_key(keys_about(at), [&](const Key& to) {
-      if (lattice.contains(to) && node(to) > node(at)) link(node(at), node(to));
+      if (lattice.contains(to) && lattice_node(to) > node) link(node, lattice_node(to));
     });
   });
 }
@@ -101,8 +99,7 @@ void Roadmap::link_others(const HeedStop& stop) {
       if ((p_world_m_[to] - p_world_m_[from]).squaredNorm() <= reach_m * reach_m) link(from, to);
     }
   };
-  const auto lattice =
-      static_cast<Node>(1 + lattice_size_[0] * lattice_size_[1] * lattice_size_[2]);
+  const Node lattice = lattice_node({0, 0, lattice_size_[2]});
   for (Node node = 1; node < size(); ++node) {
     if (is_open_[node] == 0) continue;
     if (node >= lattice) link_to_near(node);

@@ -53,6 +53,10 @@ class Roadmap {
     std::uint32_t followed = 0;  // and up to which it knows the nodes
   };
   struct LazyGraph;
+  /// The lattice's nodes come after here(), by layers.
+  Node lattice_node(const Key& at) const {
+    return static_cast<Node>(1 + (at[2] * lattice_size_[1] + at[1]) * lattice_size_[0] + at[0]);
+  }
   void link(Node a, Node b);
   void link_lattice(const HeedStop& stop);
   void link_others(const HeedStop& stop);

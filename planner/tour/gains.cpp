@@ -152,18 +152,25 @@ void ObservationYield::learn(const Patch& patch, std::size_t incidence, double m
   shares_[at] = static_cast<float>(hits_[at] / tries_[at]);
 }
 
-double GainCalibration::predict(std::span<const SeenPatch> seen, std::span<const Patch> patches,
-                                const SurfaceCells& cells) {
+double GainCalibration::expected(std::span<const SeenPatch> seen,
+                                 std::span<const Patch> patches) const {
   double sum = 0.0;
+  for (const SeenPatch& one : seen) {
+    const Patch& patch = patches[one.patch];
+    sum += patch.missing * yield_.share(patch, one.incidence);
+  }
+  return sum;
+}
+
+void GainCalibration::note(std::span<const SeenPatch> seen, std::span<const Patch> patches,
+                           const SurfaceCells& cells) {
   for (const SeenPatch& one : seen) {
     const Patch& patch = patches[one.patch];
     predictions_.push_back({.seen = one,
                             .patch = patch,
                             .gain = patch.missing * yield_.share(patch, one.incidence),
                             .covered_before = cells.cells()[cell_of(one.patch)].covered});
-    sum += predictions_.back().gain;
   }
-  return sum;
 }
 
 Gain GainCalibration::settle(SurfaceCells& cells) {

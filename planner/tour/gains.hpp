@@ -120,9 +120,11 @@ class GainCalibration {
 
   const ObservationYield& yield() const { return yield_; }
 
-  /// Notes what the next view will see. Returns how many small voxels it can be expected to gain.
-  double predict(std::span<const SeenPatch> seen, std::span<const Patch> patches,
-                 const SurfaceCells& cells);
+  /// How many small voxels can be expected of seeing that.
+  double expected(std::span<const SeenPatch> seen, std::span<const Patch> patches) const;
+  /// Notes what the next view will see, or has, before its points are among the cells.
+  void note(std::span<const SeenPatch> seen, std::span<const Patch> patches,
+            const SurfaceCells& cells);
 
   /// Compares with what the cells hold since, learns from it, counts the observations and returns
   /// their sum. No prediction is left afterwards.

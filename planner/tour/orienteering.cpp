@@ -23,8 +23,8 @@ class OpenTour {
 
   double worth() const {
     return cover_.found() -
-           problem_->cost_per_m * (waypoints_.length_m() +
-                                   problem_->metres_per_view * static_cast<double>(chosen_.size()));
+           problem_->price * (waypoints_.length_m() +
+                                   problem_->way_per_view * static_cast<double>(chosen_.size()));
   }
 
   OrienteeringTour made() const {
@@ -94,14 +94,14 @@ class OpenTour {
   double worth_of(std::uint32_t view) const {
     const std::uint32_t node = node_of(view);
     const double saved_m = has_just(node, 1) ? waypoints_.saved_without_m(node) : 0.0;
-    return cover_.loss_without(view) - problem_->cost_per_m * (problem_->metres_per_view + saved_m);
+    return cover_.loss_without(view) - problem_->price * (problem_->way_per_view + saved_m);
   }
 
   std::optional<std::uint32_t> best_view(double metres_per_view,
                                          std::span<const double> weights) const {
     const std::span<const double> gains = cover_.gains();
     const std::span<const float> extra_m = waypoints_.extra_m();
-    double most = kTolerance * problem_->cost_per_m;
+    double most = kTolerance * problem_->price;
     std::optional<std::uint32_t> best;
     for (std::uint32_t view = 0; view < gains.size(); ++view) {
       if (cover_.has(view)) continue;
@@ -168,7 +168,7 @@ OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::
   tour.drop_unpaid();
   tour.shorten();
   return search(std::move(tour), problem.observations.size(), iterations,
-                {.price = problem.cost_per_m}, seed)
+                {.price = problem.price}, seed)
       .made();
 }
 

@@ -23,8 +23,8 @@ struct OrienteeringProblem {
   std::vector<std::vector<ItemObservation>> observations;  // of each view, by ascending item
   std::vector<std::uint32_t> node;                         // of each view
   std::uint32_t start = 0;                                 // the node where a tour begins
-  double cost_per_m = 0.0;                                 // of way, in weight
-  double metres_per_view = 0.0;                            // what a view costs as if it were way
+  double price = 0.0;         // of a unit of way, in weight: a metre, or a second
+  double way_per_view = 0.0;  // what a view costs as if it were way
   RowOf row_m = {};  // asked again and again, many times in each round of a search; may throw
 };
 

@@ -12,7 +12,6 @@
 namespace gnbv {
 namespace {
 
-constexpr double kSpeedShare = 0.9;  // of the top speed: the mean of a leg that is not turned on
 constexpr float kNoWay_s = 1e6F;
 
 /// Frames on the way are looked at so far apart.
@@ -50,7 +49,7 @@ class LegTable {
       const double turn_rad = wrap_angle_rad(yaw_rad - pose(from).yaw_rad);
       turn_s.push_back(static_cast<float>(problem_.travel->turn_s(turn_rad)));
     }
-    const auto per_m = static_cast<float>(1.0 / (kSpeedShare * problem_.travel->speed_m_s));
+    const auto per_m = static_cast<float>(problem_.travel->way_s(1.0));
     for (std::size_t v = 0; v < problem_.poses.size(); ++v) {
       row.push_back(std::min(kNoWay_s, std::max(per_m * row_m[views.node[v]], turn_s[yaw_of_[v]])));
     }
@@ -78,7 +77,7 @@ class Sequence {
   double worth() const {
     const OrienteeringProblem& views = *problem_->views;
     return cover_.found() -
-           views.cost_per_m * (seconds() + views.metres_per_view * double(order_.size()));
+           views.price * (seconds() + views.way_per_view * double(order_.size()));
   }
 
   void append(std::uint32_t view) { insert(view, order_.size()); }
@@ -87,7 +86,7 @@ class Sequence {
     const OrienteeringProblem& views = *problem_->views;
     while (true) {
       find_detours();
-      double most = kTolerance * views.cost_per_m;
+      double most = kTolerance * views.price;
       std::optional<std::uint32_t> best;
       for (std::uint32_t view = 0; view < extra_s_.size(); ++view) {
         if (held_[view] > 0 || extra_s_[view] >= kNoWay_s) continue;
@@ -239,7 +238,7 @@ class Sequence {
     }
     const OrienteeringProblem& views = *problem_->views;
     const double lost = held_[view] > 1 ? 0.0 : cover_.loss_without(view);
-    return lost - views.cost_per_m * (views.metres_per_view + saved_s);
+    return lost - views.price * (views.way_per_view + saved_s);
   }
 
   /// What each view would add at the place where it adds the least, and where that is.
@@ -274,13 +273,6 @@ class Sequence {
 
 }  // namespace
 
-double TravelConfig::turn_s(double turn_rad) const {
-  const double turn = std::abs(turn_rad);
-  const double ramps_rad = yaw_rate_rad_s * yaw_rate_rad_s / yaw_acceleration_rad_s2;
-  return turn < ramps_rad ? 2.0 * std::sqrt(turn / yaw_acceleration_rad_s2)
-                          : turn / yaw_rate_rad_s + yaw_rate_rad_s / yaw_acceleration_rad_s2;
-}
-
 std::vector<std::uint32_t> solve(const TimedProblem& problem, std::span<const std::uint32_t> from,
                                  int iterations, std::uint64_t seed) {
   LegTable legs(problem);
@@ -290,7 +282,7 @@ std::vector<std::uint32_t> solve(const TimedProblem& problem, std::span<const st
   tour.drop_unpaid();
   tour.shorten();
   return search(std::move(tour), problem.poses.size(), iterations,
-                {.price = problem.views->cost_per_m}, seed)
+                {.price = problem.views->price}, seed)
       .chosen();
 }
 

@@ -13,9 +13,9 @@ namespace gnbv {
 
 struct TravelConfig;
 
-/// The views of an orienteering problem, whose costs are of seconds here, with their poses.
+/// The views of an orienteering problem, whose way is counted in seconds, with their poses.
 struct TimedProblem {
-  const OrienteeringProblem* views = nullptr;  // cost_per_m: of a second; metres_per_view: seconds
+  const OrienteeringProblem* views = nullptr;
   std::span<const ViewPose> poses;             // of the views
   ViewPose start;
   const TravelConfig* travel = nullptr;

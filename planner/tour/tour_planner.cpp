@@ -34,8 +34,8 @@ struct Step {
   const HeedStop stop = [this] { scratch.heed_stop(); };
 
   TourScene scene() const { return {config, state.cells, state.patches}; }
-  /// What a metre has to bring, in small voxels.
-  double cost_per_m() const {
+  /// What a unit of way has to bring, in small voxels.
+  double price() const {
     return config.price * expected_surface(state.cells).voxels_a_metre();
   }
   void follow_roadmap() const {
@@ -43,9 +43,37 @@ struct Step {
   }
 };
 
+/// Frames within this of the last one see what that saw.
+constexpr double kLook_m = 0.5;
+constexpr double kLook_rad = deg_to_rad(15.0);
+
+bool has_frames_between(const PlannerModel& model) {
+  return std::any_of(model.cameras.begin(), model.cameras.end(),
+                     [](const CameraModel& camera) { return camera.config.rate_hz > 0.0; });
+}
+
+/// What the frames since the last plan saw of the patches of that plan, each patch once.
+std::vector<SeenPatch> seen_since(const Step& step) {
+  TourState& state = step.state;
+  std::vector<FramePose> kept(step.model.cameras.size(), {.camera = -1});
+  std::vector<FramePose> looks;
+  for (const FramePose& look : std::span(step.belief.frame_poses).subspan(state.frames_taken)) {
+    FramePose& last = kept[static_cast<std::size_t>(look.camera)];
+    const Isometry T_last_look = last.T_world_camera.inverse() * look.T_world_camera;
+    const bool is_new = last.camera < 0 || T_last_look.translation().norm() > kLook_m ||
+                        Eigen::AngleAxisd(T_last_look.linear()).angle() > kLook_rad;
+    if (is_new) looks.push_back(last = look);
+  }
+  state.frames_taken = step.belief.frame_poses.size();
+  return state.visibility.observe(step.scene(), looks, step.scratch.threads);
+}
+
 /// Adds what the last view brought to the surface, and learns from it.
 void update_surface(const Step& step) {
   TourState& state = step.state;
+  if (has_frames_between(step.model)) {
+    state.calibration.note(seen_since(step), state.patches, state.cells);
+  }
   const std::span<const Vec3f> fresh =
       step.belief.cloud.points_world_m().subspan(state.points_taken);
   state.points_taken += fresh.size();
@@ -56,7 +84,7 @@ void update_surface(const Step& step) {
   state.cells.add(fresh, step.belief.grid, step.scratch.threads, step.stop);
   const Gain gain = state.calibration.settle(state.cells);
   const bool is_short = gain.found < step.config.replan_below * gain.predicted;
-  if (is_short && gain.predicted - gain.found > step.cost_per_m()) state.is_due = true;
+  if (is_short && gain.predicted - gain.found > step.price()) state.is_due = true;
 }
 
 /// Finds what the surface lacks, and how much of it observations can be expected to bring.
@@ -98,10 +126,7 @@ std::vector<std::uint32_t> solve_in_seconds(const Step& step, TourProblem& task,
   }
   TimedProblem problem{
       .views = &task.problem, .poses = poses, .start = step.current, .travel = &step.model.travel};
-  const bool has_frames =
-      std::any_of(step.model.cameras.begin(), step.model.cameras.end(),
-                  [](const CameraModel& camera) { return camera.config.rate_hz > 0.0; });
-  if (has_frames) {
+  if (has_frames_between(step.model)) {
     problem.view_at = [&](const ViewPose& pose) -> std::optional<std::uint32_t> {
       const Roadmap::Node node = state.roadmap.nearest(pose.p_world_m);
       const std::uint32_t view =
@@ -109,7 +134,6 @@ std::vector<std::uint32_t> solve_in_seconds(const Step& step, TourProblem& task,
       return view == kNone ? std::nullopt : std::optional(view);
     };
   }
-  task.problem.metres_per_view = step.config.seconds_per_view;
   return solve(problem, from, step.config.iterations, seed);
 }
 
@@ -117,7 +141,7 @@ std::vector<std::uint32_t> solve_in_seconds(const Step& step, TourProblem& task,
 bool solve_tour(const Step& step) {
   TourState& state = step.state;
   TourProblem task =
-      make_tour_problem(step.config, state, state.cost_factor * step.cost_per_m(), step.stop);
+      make_tour_problem(step.config, state, state.cost_factor * step.price(), step.stop);
   task.problem.row_m = [&](std::uint32_t node) {
     step.stop();
     return state.roadmap.row_m(node, step.stop);
@@ -231,24 +255,16 @@ std::vector<Onward> way_onward(const Step& step, Roadmap::Node from) {
 
 /// Whether a view of a tour in seconds is no longer worth the way by it: frames on the way to the
 /// views before it have seen what it was for.
-bool passes_over(const Step& step, const TourView& view) {
-  TourState& state = step.state;
+bool passes_over(const Step& step, const TourView& view, double gain) {
+  const TourState& state = step.state;
   if (step.config.cost != TourCost::seconds || state.tour.empty()) return false;
-  double gain = 0.0;
-  for (const SeenPatch& seen :
-       state.visibility.observe(step.scene(), view.pose, step.scratch.threads)) {
-    const Patch& patch = state.patches[seen.patch];
-    gain += patch.missing * state.calibration.yield().share(patch, seen.incidence);
-  }
   const auto leg_s = [&](const ViewPose& a, const ViewPose& b) {
-    const TravelConfig& travel = step.model.travel;
-    return std::max((a.p_world_m - b.p_world_m).norm() / travel.speed_m_s,
-                    travel.turn_s(wrap_angle_rad(b.yaw_rad - a.yaw_rad)));
+    return step.model.travel.leg_s((a.p_world_m - b.p_world_m).norm(), wrap_angle_rad(b.yaw_rad - a.yaw_rad));
   };
   const ViewPose& next = state.tour.front().pose;
   const double detour_s =
       leg_s(step.current, view.pose) + leg_s(view.pose, next) - leg_s(step.current, next);
-  const double price = 0.5 * state.cost_factor * step.cost_per_m();
+  const double price = 0.5 * state.cost_factor * step.price();
   return gain < price * (detour_s + step.config.seconds_per_view);
 }
 
@@ -268,15 +284,17 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
       state.is_due = true;
       continue;
     }
-    if (passes_over(step, view)) {
+    const std::vector<SeenPatch> seen =
+        state.visibility.observe(step.scene(), view.pose, step.scratch.threads);
+    const double gain = state.calibration.expected(seen, state.patches);
+    if (passes_over(step, view, gain)) {
       plan.candidates.pop_back();
       continue;
     }
     candidate.path_m = checker.length_m(path, view.pose);
     candidate.via_world_m = std::move(path.via_world_m);
-    const double gain = state.calibration.predict(
-        state.visibility.observe(step.scene(), view.pose, step.scratch.threads), state.patches,
-        state.cells);
+    // of frames between views too, it learns from where they were taken
+    if (!has_frames_between(step.model)) state.calibration.note(seen, state.patches, state.cells);
     candidate.score = {.value = gain, .information = gain};
     choose(plan, plan.candidates.size() - 1, left, left);
     plan.views.back().then = way_onward(step, view.node);

@@ -48,7 +48,7 @@ struct Offer {
 std::vector<Offer> find_offers(const TourConfig& config, const TourState& state,
                                const OrienteeringProblem& problem,
                                const std::vector<std::uint32_t>& item_of, const HeedStop& stop) {
-  const double least = 0.5 * problem.cost_per_m * config.metres_per_view;
+  const double least = 0.5 * problem.price * problem.way_per_view;
   std::vector<Offer> offers;
   std::vector<ItemObservation> observations;
   for (const Roadmap::Node node : state.roadmap.reachable()) {
@@ -143,13 +143,14 @@ ExpectedSurface expected_surface(const SurfaceCells& cells) {
   return surface;
 }
 
-TourProblem make_tour_problem(const TourConfig& config, const TourState& state, double cost_per_m,
+TourProblem make_tour_problem(const TourConfig& config, const TourState& state, double price,
                               const HeedStop& stop) {
   TourProblem made;
   OrienteeringProblem& problem = made.problem;
   problem.start = Roadmap::here();
-  problem.cost_per_m = cost_per_m;
-  problem.metres_per_view = config.metres_per_view;
+  problem.price = price;
+  problem.way_per_view =
+      config.cost == TourCost::seconds ? config.seconds_per_view : config.metres_per_view;
   const std::vector<std::uint32_t> item_of = choose_items(config, state, problem);
   std::vector<Offer> offers = find_offers(config, state, problem, item_of, stop);
   keep_best(state.tour, offers, problem.weight.size());

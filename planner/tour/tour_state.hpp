@@ -30,6 +30,7 @@ struct TourState {
   std::vector<Patch> patches;
   std::size_t points_taken = 0;  // of the cloud
   std::size_t ranged_taken = 0;  // of what LIDARs saw
+  std::size_t frames_taken = 0;   // of the frames
   GainCalibration calibration;
 
   // where views may be taken from, and what they would see
@@ -69,10 +70,10 @@ struct TourProblem {
   std::vector<TourView> views;  // of the problem, in its order
 };
 
-/// All views of reachable nodes that may pay when a metre has to bring `cost_per_m` small voxels.
+/// All views of reachable nodes that may pay when a unit of way has to bring `price` small voxels.
 /// Of more than 12,000 patches one in so many stands for its share. Its `row_m` is left to the
 /// caller.
-TourProblem make_tour_problem(const TourConfig& config, const TourState& state, double cost_per_m,
+TourProblem make_tour_problem(const TourConfig& config, const TourState& state, double price,
                               const HeedStop& stop);
 
 /// Between nodes of the lattice: a quarter of the cameras' range, but at least eight across the

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "planner/map/ray_walk.hpp"
+#include "planner/core/belief.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -52,6 +53,15 @@ void for_each_direction(const CameraModel& camera, const Vec3& normal, const Use
   }
 }
 
+/// Of each patch the best incidence, by patch.
+void keep_best(std::vector<SeenPatch>& seen) {
+  std::sort(seen.begin(), seen.end(), [](const SeenPatch& a, const SeenPatch& b) {
+    return a.patch != b.patch ? a.patch < b.patch : a.incidence < b.incidence;
+  });
+  const auto is_same = [](const SeenPatch& a, const SeenPatch& b) { return a.patch == b.patch; };
+  seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
+}
+
 }  // namespace
 
 VisibilityCache::VisibilityCache(const TourConfig& config, std::span<const CameraModel> cameras,
@@ -82,11 +92,7 @@ std::vector<SeenPatch> VisibilityCache::observe(const TourScene& scene, const Vi
   for (const CameraModel& camera : turned(cameras_, view.gimbal_pitch_rad)) {
     viewer.observe(scene, camera, T_world_body(view), near, blocks_.radius_m(), seen);
   }
-  std::sort(seen.begin(), seen.end(), [](const SeenPatch& a, const SeenPatch& b) {
-    return a.patch != b.patch ? a.patch < b.patch : a.incidence < b.incidence;
-  });
-  const auto is_same = [](const SeenPatch& a, const SeenPatch& b) { return a.patch == b.patch; };
-  seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
+  keep_best(seen);
   return seen;
 }
 
@@ -95,6 +101,27 @@ std::vector<SeenPatch> VisibilityCache::observe(const TourScene& scene, const Vi
   blocks_.follow(scene.cells, threads);
   PatchViewer viewer;
   return observe(scene, view, blocks_.near(view.p_world_m, reach_m_), viewer);
+}
+
+std::vector<SeenPatch> VisibilityCache::observe(const TourScene& scene,
+                                                std::span<const FramePose> looks, int threads) {
+  blocks_.follow(scene.cells, threads);
+  std::vector<std::vector<SeenPatch>> seen_by(looks.size());
+  parallel_for_chunks(threads, looks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    PatchViewer viewer;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Isometry& T_world_camera = looks[i].T_world_camera;
+      CameraModel camera = cameras_[static_cast<std::size_t>(looks[i].camera)];
+      camera.T_body_camera = Isometry::Identity();
+      viewer.observe(scene, camera, T_world_camera,
+                     blocks_.near(T_world_camera.translation(), reach_m_), blocks_.radius_m(),
+                     seen_by[i]);
+    }
+  });
+  std::vector<SeenPatch> seen;
+  for (const auto& one : seen_by) seen.insert(seen.end(), one.begin(), one.end());
+  keep_best(seen);
+  return seen;
 }
 
 std::uint32_t VisibilityCache::changes_near(const Vec3& p_world_m, std::uint32_t since) const {

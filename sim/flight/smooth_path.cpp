@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/rest_to_rest.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/trajectory.hpp"
 
@@ -31,13 +32,6 @@ double acceleration_for(double by, double time_constant_s, double acceleration, 
 Vec3 shortened(const Vec3& v, double most) {
   const double length = v.norm();
   return length > most ? Vec3(v * (most / length)) : v;
-}
-
-/// How long a turn takes from rest to rest without a limit on its jerk.
-double turn_s(double turn_rad, const RestToRest::Limits& limits) {
-  const double ramps_rad = limits.speed * limits.speed / limits.acceleration;
-  return turn_rad < ramps_rad ? 2.0 * std::sqrt(turn_rad / limits.acceleration)
-                              : turn_rad / limits.speed + limits.speed / limits.acceleration;
 }
 
 class Way {
@@ -87,7 +81,8 @@ class Way {
   double turn_time_s(double from_rad, const PassedPose& to) const {
     if (!to.needs_yaw) return 0.0;
     const double off_rad = std::abs(wrap_angle_rad(to.pose.yaw_rad - from_rad));
-    return turn_s(std::max(0.0, off_rad - config_.pass_yaw_rad), turn_);
+    return rest_to_rest_s(std::max(0.0, off_rad - config_.pass_yaw_rad), turn_.speed,
+                          turn_.acceleration);
   }
 
   /// How each pose may be passed, from the last one back.

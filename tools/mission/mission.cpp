@@ -57,26 +57,13 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
       if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
-  const double speed_m_s = m.scenario.guidance.path_speed_m_s;
-  std::optional<Termination> over;
-  std::vector<ViewPose> legs;
-  if (m.scenario.guidance.trajectory == Trajectory::smooth) {
-    if (!m.corners.empty()) m.exits = m.corners;
-    over = fly_past(m, next, look);
-    if (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) come_to_rest(m);
-  } else {
-    for (const Vec3& via_m : next.via_world_m) {
-      legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});
-    }
-    legs.push_back(next.view);
-    for (std::size_t i = 0; i < legs.size() && !over; ++i) {
-      // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
-      if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
-      over = fly_leg(m, legs[i], speed_m_s, look);
-    }
-  }
-  while (!over && m.gimbal_pitch_rad != next.view.gimbal_pitch_rad) {
-    over = fly_leg(m, next.view, speed_m_s, look);
+  const bool is_smooth = m.scenario.guidance.trajectory == Trajectory::smooth;
+  std::optional<Termination> over =
+      is_smooth ? fly_past(m, next, look) : fly_legs(m, next, look);
+  const auto is_gimbal_late = [&] { return m.gimbal_pitch_rad != next.view.gimbal_pitch_rad; };
+  if (!over && is_smooth && is_gimbal_late()) over = come_to_rest(m, look);
+  while (!over && is_gimbal_late()) {
+    over = fly_leg(m, next.view, m.scenario.guidance.path_speed_m_s, look);
   }
   m.out.distance.flown_m = m.flown_m;
   return over;
@@ -186,9 +173,11 @@ void keep_views_not_tried(Mission& m) {
 }
 
 MissionResult finish(Mission& m, Termination reason) {
-  m.out.termination = reason;
   keep_views_not_tried(m);
-  if (reason != Termination::collision) come_to_rest(m);
+  if (reason != Termination::collision) {
+    reason = come_to_rest(m, [](const Flight&) {}).value_or(reason);
+  }
+  m.out.termination = reason;
   if (ends_at_home(m, reason)) fly_home(m);
   m.out.flight_time_s = time_s(*m.flight);
   m.out.energy_wh = m.flight->energy_wh();

@@ -40,9 +40,7 @@ PlannerModel planner_model(const Scenario& scenario) {
   PlannerModel model = make_model(scenario.planner, scenario.workspace_m, scenario.cameras,
                                   scenario.lidars, scenario.seed, no_fly_of(scenario));
   const RestToRest::Limits turn = turn_limits(scenario.guidance, scenario.vehicle);
-  model.travel = {.passes_views = scenario.guidance.trajectory == Trajectory::smooth,
-                  .speed_m_s = scenario.guidance.path_speed_m_s,
-                  .acceleration_m_s2 = scenario.guidance.acceleration_m_s2,
+  model.travel = {.speed_m_s = scenario.guidance.path_speed_m_s,
                   .yaw_rate_rad_s = turn.speed,
                   .yaw_acceleration_rad_s2 = turn.acceleration};
   return model;

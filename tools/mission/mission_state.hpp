@@ -87,14 +87,19 @@ bool goes_on(const Mission& m);
 /// What ended a leg or a way; nothing when it arrived.
 std::optional<Termination> over_after(const Mission& m, LegEnd end);
 
-// ---- passing.cpp: one smooth way that passes views (guidance.trajectory: smooth).
+// ---- passing.cpp: to the next view by legs, or past it by one smooth way (guidance.trajectory).
 
+/// By legs from rest to rest. Where the vehicle had to stop on a smooth way they were planned from
+/// elsewhere: a view that no free leg leads to is given up, as one that times out.
+std::optional<Termination> fly_legs(Mission& m, const Decision& next,
+                                    const std::function<void(const Flight&)>& on_tick);
 /// Flies past the view, the vehicle moving on, by a way that is clear of all that is known to be
 /// occupied, and through nothing that is not known to be free; where there is none, by legs.
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick);
-/// Flies the way at hand to its end.
-void come_to_rest(Mission& m);
+/// Flies the way at hand to its end, whatever else would end the mission; says whether it collided.
+std::optional<Termination> come_to_rest(Mission& m,
+                                        const std::function<void(const Flight&)>& on_tick);
 
 /// Profiles the structure with the LIDARs and believes the scans in one batch (section 2.2), or
 /// takes up the belief that an earlier profile left; then predicts what symmetry tells of the rest

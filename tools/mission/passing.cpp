@@ -119,39 +119,44 @@ void set_current(Mission& m, double gimbal_pitch_rad) {
   m.current = {T.translation(), yaw_of(T), gimbal_pitch_rad};
 }
 
-/// By legs that are free from here; a view that no such legs lead to is given up.
+}  // namespace
+
 std::optional<Termination> fly_legs(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
-  m.path.clear();
-  m.path_at = 0;
   std::vector<ViewPose> legs;
-  for (const Vec3& via_m : next.via_world_m) legs.push_back({via_m, next.view.yaw_rad});
+  for (const Vec3& via_m : next.via_world_m) {
+    legs.push_back({via_m, next.view.yaw_rad, next.view.gimbal_pitch_rad});
+  }
   legs.push_back(next.view);
-  const FreeSpace space = free_space(m);
-  for (const ViewPose& leg : legs) {
-    // the way was planned from where the vehicle was before it stopped
+  const bool was_planned_from_here = m.scenario.guidance.trajectory == Trajectory::legs;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vec3 here_m = m.flight->estimate().T_world_body.translation();
-    if (!space.is_leg_free(here_m, leg.p_world_m)) {
+    if (!was_planned_from_here && !free_space(m).is_leg_free(here_m, legs[i].p_world_m)) {
       set_current(m, m.gimbal_pitch_rad);
       ++m.out.legs_timed_out;
       return std::nullopt;
     }
-    const auto over = fly_leg(m, leg, m.scenario.guidance.path_speed_m_s, on_tick);
+    // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
+    if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
+    const auto over = fly_leg(m, legs[i], m.scenario.guidance.path_speed_m_s, on_tick);
     if (over) return over;
   }
   return std::nullopt;
 }
 
-}  // namespace
-
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
+  if (!m.corners.empty()) m.exits = m.corners;
   bool has_way = find_way(m, next);
   if (!has_way && m.path_at > 0) {
     if (const auto over = stop(m, true, on_tick)) return over;
     has_way = find_way(m, next);
   }
-  if (!has_way) return fly_legs(m, next, on_tick);
+  if (!has_way) {
+    m.path.clear();
+    m.path_at = 0;
+    return fly_legs(m, next, on_tick);
+  }
   const auto end = fly_on(m, next.via_world_m.size() + 1, on_tick);
   if (const auto* const over = std::get_if<Termination>(&end)) return *over;
   if (std::get<WayEnd>(end) == WayEnd::blocked) {
@@ -162,13 +167,17 @@ std::optional<Termination> fly_past(Mission& m, const Decision& next,
   return std::nullopt;
 }
 
-void come_to_rest(Mission& m) {
-  fly_path(*m.flight, m.path, m.path_at, kAll, m.scenario.vehicle, [&](const Flight&) {
-    keep_track(m);
-    return true;
-  });
+std::optional<Termination> come_to_rest(Mission& m,
+                                        const std::function<void(const Flight&)>& on_tick) {
+  const LegEnd end =
+      fly_path(*m.flight, m.path, m.path_at, kAll, m.scenario.vehicle, [&](const Flight& flight) {
+        keep_track(m);
+        on_tick(flight);
+        return true;
+      });
   m.path.clear();
   m.path_at = 0;
+  return end == LegEnd::collision ? std::optional(Termination::collision) : std::nullopt;
 }
 
 }  // namespace gnbv

@@ -40,8 +40,8 @@ struct RandomProblem {
         if (random(seed, 10 + v, i) < 0.33) problem.observations.back().push_back({i, 0.9F});
       }
     }
-    problem.cost_per_m = 0.3;
-    problem.metres_per_view = 0.3;
+    problem.price = 0.3;
+    problem.way_per_view = 0.3;
     problem.row_m = [this](std::uint32_t node) -> std::span<const float> { return rows_m[node]; };
   }
 
@@ -63,7 +63,7 @@ struct RandomProblem {
       length_m += (p_m[v + 1] - p_m[at]).norm();
       at = v + 1;
     }
-    return found(views) - problem.cost_per_m * (length_m + problem.metres_per_view *
+    return found(views) - problem.price * (length_m + problem.way_per_view *
                                                                static_cast<double>(views.size()));
   }
   /// Of all subsets in all orders.
@@ -112,7 +112,7 @@ TEST(OrienteeringTour, IsNoWorseThanTheOneItBeginsWithNorGreed) {
 
 TEST(OrienteeringTour, StaysAtHomeWhereNothingPays) {
   RandomProblem random_one(1);
-  random_one.problem.cost_per_m = 1000.0;
+  random_one.problem.price = 1000.0;
   const OrienteeringTour tour = solve(random_one.problem, {}, 100, 1);
   EXPECT_TRUE(tour.views.empty());
   EXPECT_EQ(tour.worth, 0.0);
