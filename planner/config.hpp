@@ -39,12 +39,15 @@ struct PlannerConfig {
 
 /// The paper's text, and its code where the text is silent; the code that its authors released in
 /// 2017 (master, 5750058); the code behind the paper with its settings of 5 August 2018 (branch
-/// frontier_viewgenerator_update, e45ff3f). See FIDELITY.md.
-constexpr std::array<std::string_view, 3> kPlannerPresets = {"paper", "released", "authors_2018"};
+/// frontier_viewgenerator_update, e45ff3f). See FIDELITY.md. And ours: flown on from take-off
+/// without a profile (DECISIONS.md, 111), the paper's otherwise.
+constexpr std::string_view kTakeoff = "takeoff";
+constexpr std::array<std::string_view, 4> kPlannerPresets = {"paper", "released", "authors_2018",
+                                                             kTakeoff};
 
 /// Sets every switch in which they differ (FIDELITY.md lists them) as `config.preset` says, and
-/// nothing else: resolution, weights and sizes stay the scenario's. Requires a name of
-/// kPlannerPresets.
-void set_preset_switches(PlannerConfig& config);
+/// nothing else: resolution, weights and sizes stay the scenario's. `before`: the preset that the
+/// switches were set by. Requires a name of kPlannerPresets.
+void set_preset_switches(PlannerConfig& config, std::string_view before = "paper");
 
 }  // namespace gnbv

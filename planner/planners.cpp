@@ -83,10 +83,26 @@ const NamedPlanner& planner_of(const UtilityConfig& utility) {
 
 }  // namespace
 
-void set_preset_switches(PlannerConfig& config) {
+namespace {
+
+/// What differs between a flight from take-off on and one after a profile.
+void set_takeoff_switches(PlannerConfig& config, bool is_takeoff) {
+  const PlannerConfig paper;
+  config.profiling.method = is_takeoff ? ProfilingMethod::none : paper.profiling.method;
+  config.profiling.flight_rate_hz = is_takeoff ? 10.0 : paper.profiling.flight_rate_hz;
+  config.tour.cost = is_takeoff ? TourCost::seconds : paper.tour.cost;
+  config.tour.explore = is_takeoff ? false : paper.tour.explore;
+  config.tour.price = is_takeoff ? 0.3 : paper.tour.price;
+}
+
+}  // namespace
+
+void set_preset_switches(PlannerConfig& config, std::string_view before) {
   const auto known = std::find(kPlannerPresets.begin(), kPlannerPresets.end(), config.preset);
   GNBV_CHECK(known != kPlannerPresets.end(), "no preset '{}'", config.preset);
-  const auto index = static_cast<std::size_t>(known - kPlannerPresets.begin());
+  const bool is_takeoff = config.preset == kTakeoff;
+  if (is_takeoff || before == kTakeoff) set_takeoff_switches(config, is_takeoff);
+  const auto index = is_takeoff ? 0 : static_cast<std::size_t>(known - kPlannerPresets.begin());
   const auto set = [&]<typename T>(T& value, const std::type_identity_t<T>& papers,
                                    const std::type_identity_t<T>& released,
                                    const std::type_identity_t<T>& authors_2018) {

@@ -356,9 +356,9 @@ void fields(const Keys& key, TerminationConfig& c) {
 void fields(const Keys& key, PlannerConfig& c) {
   const std::string before = c.preset;
   key("preset", c.preset, kPlannerPresets,
-      "The paper, its authors' code of 2017 (released) or the code behind it (authors_2018): sets "
-      "the switches in which they differ.");
-  if (c.preset != before) set_preset_switches(c);
+      "The paper, its authors' code of 2017 (released), the code behind it (authors_2018), or a "
+      "flight without a profile (takeoff): sets the switches in which they differ.");
+  if (c.preset != before) set_preset_switches(c, before);
   const Keys scoring = key.only_if(scores_views, kUtility);
   key.section("map", c.map, "The occupancy grid.");
   key.section("cloud", c.cloud, "The surface cloud.");

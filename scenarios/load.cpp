@@ -98,17 +98,6 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const SourceLoca
   }
 }
 
-/// The cameras of the authors' code have no return beyond 5 m (paper_code.md, section 1: Gazebo's
-/// default), unless the user says where theirs end.
-void end_returns_of_authors(Scenario& scenario, const SourceLocations& locations) {
-  constexpr double kGazebos_m = 5.0;
-  if (scenario.planner.preset != "authors_2018") return;
-  for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
-    if (locations.contains(fmt::format("cameras.{}.return_max_m", i))) continue;
-    scenario.cameras[i].return_max_m = kGazebos_m;
-  }
-}
-
 /// What was not given and is another afterwards is the filling's.
 void fill_in(const Filling& filling, Scenario& scenario, SourceLocations& locations) {
   const auto is_given = [&](std::string_view key) {
@@ -179,7 +168,7 @@ Loaded load(const std::string& name_or_path, const std::vector<Override>& overri
     const auto picks = parse_override(text, given, errors);
     if (picks) read(*picks, folder.empty() ? here() : folder, given);
   }
-  end_returns_of_authors(scenario, locations);
+  set_preset_flight(scenario, locations);
   SourceLocations given_by_user = locations;
   if (source.is_builtin) {
     std::erase_if(given_by_user, [](const auto& given) { return given.second.rank == 0; });
@@ -201,6 +190,25 @@ Scenario noting_removed(Loaded loaded) {
 }
 
 }  // namespace
+
+void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
+  constexpr double kGazebos_m = 5.0;
+  constexpr double kFrames_hz = 5.0;
+  const bool is_takeoff = scenario.planner.preset == kTakeoff;
+  if (is_takeoff && !given.contains("guidance.trajectory")) {
+    scenario.guidance.trajectory = Trajectory::smooth;
+  }
+  for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
+    const auto is_given = [&](std::string_view key) {
+      return given.contains(fmt::format("cameras.{}.{}", i, key));
+    };
+    CameraConfig& camera = scenario.cameras[i];
+    if (is_takeoff && !is_given("rate_hz")) camera.rate_hz = kFrames_hz;
+    if (scenario.planner.preset == "authors_2018" && !is_given("return_max_m")) {
+      camera.return_max_m = kGazebos_m;
+    }
+  }
+}
 
 std::vector<std::string> builtin_scenario_names() {
   const std::vector<std::string_view> names = builtin_names("scenarios");

@@ -35,4 +35,9 @@ std::optional<std::string> former_default(std::string_view path, const Scenario&
 std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
                                                 const SourceLocations& locations);
 
+/// What a planner's preset says of the vehicle, unless the user does: authors_2018, no return
+/// beyond 5 m (paper_code.md, section 1: Gazebo's default); takeoff, frames at 5 Hz and views
+/// passed.
+void set_preset_flight(Scenario& scenario, const SourceLocations& given);
+
 }  // namespace gnbv

@@ -81,6 +81,7 @@ Texts defaults_of(const Scenario& scenario) {
   Scenario plain;
   plain.planner.preset = scenario.planner.preset;
   set_preset_switches(plain.planner);
+  set_preset_flight(plain, {});
   plain.vehicle = vehicle_preset(scenario.vehicle.preset);
   const auto values = scenario_values(plain);
   return {values.begin(), values.end()};

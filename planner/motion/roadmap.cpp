@@ -34,16 +34,15 @@ Roadmap::Roadmap(const GridGeometry& geometry, const Box3& navigation_m, double 
   const double voxel_m = geometry.resolution_m();
   step_m_ = std::max(1.0, std::round(step_m / voxel_m)) * voxel_m;
   p_world_m_.push_back(navigation_m.center());  // here
-  std::array<std::vector<double>, 3> along_m;
   for (int a = 0; a < 3; ++a) {
     const bool begins_low = a == 2;  // the lowest nodes see the undersides
-    along_m[a] = lattice_along_m(geometry, navigation_m.min()[a], navigation_m.max()[a], step_m_,
-                                 begins_low);
-    lattice_size_[a] = static_cast<std::int32_t>(along_m[a].size());
+    along_m_[a] = lattice_along_m(geometry, navigation_m.min()[a], navigation_m.max()[a], step_m_,
+                                  begins_low);
+    lattice_size_[a] = static_cast<std::int32_t>(along_m_[a].size());
   }
-  for (const double z : along_m[2]) {
-    for (const double y : along_m[1]) {
-      for (const double x : along_m[0]) p_world_m_.emplace_back(x, y, z);
+  for (const double z : along_m_[2]) {
+    for (const double y : along_m_[1]) {
+      for (const double x : along_m_[0]) p_world_m_.emplace_back(x, y, z);
     }
   }
 }
@@ -54,10 +53,13 @@ Roadmap::Node Roadmap::add(const Vec3& p_world_m) {
 }
 
 Roadmap::Node Roadmap::nearest(const Vec3& p_world_m) const {
-  const Vec3 steps = (p_world_m - p_world_m_[1]) / step_m_;
   Key at;
   for (int a = 0; a < 3; ++a) {
-    at[a] = std::clamp(static_cast<std::int32_t>(std::lround(steps[a])), 0, lattice_size_[a] - 1);
+    const std::vector<double>& along_m = along_m_[a];
+    const auto first = along_m.begin();
+    auto nearest = std::lower_bound(first, along_m.end() - 1, p_world_m[a]);
+    if (nearest != first && p_world_m[a] - nearest[-1] < nearest[0] - p_world_m[a]) --nearest;
+    at[a] = static_cast<std::int32_t>(nearest - first);
   }
   return lattice_node(at);
 }

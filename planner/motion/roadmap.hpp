@@ -1,6 +1,7 @@
 // Where views may be taken from, and the ways between those nodes.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <vector>
@@ -31,7 +32,7 @@ class Roadmap {
   std::size_t size() const { return p_world_m_.size(); }
   static constexpr Node here() { return 0; }
   const Vec3& p_world_m(Node node) const { return p_world_m_[node]; }
-  /// The node of the lattice, open or not, that is nearest to a point in the navigation box.
+  /// The node of the lattice, open or not, that is nearest to a point.
   Node nearest(const Vec3& p_world_m) const;
   /// Ascending, without here().
   std::span<const Node> reachable() const { return reachable_; }
@@ -68,6 +69,7 @@ class Roadmap {
 
   GridGeometry geometry_;
   double step_m_ = 0.0;
+  std::array<std::vector<double>, 3> along_m_;  // of the lattice's nodes, ascending
   Key lattice_size_ = {0, 0, 0};
   std::vector<Vec3> p_world_m_;
   std::vector<std::uint8_t> is_open_;

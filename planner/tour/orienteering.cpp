@@ -24,7 +24,7 @@ class OpenTour {
   double worth() const {
     return cover_.found() -
            problem_->price * (waypoints_.length_m() +
-                                   problem_->way_per_view * static_cast<double>(chosen_.size()));
+                              problem_->way_per_view * static_cast<double>(chosen_.size()));
   }
 
   OrienteeringTour made() const {
@@ -167,8 +167,8 @@ OrienteeringTour solve(const OrienteeringProblem& problem, std::span<const std::
   tour.complete(1.0, {});
   tour.drop_unpaid();
   tour.shorten();
-  return search(std::move(tour), problem.observations.size(), iterations,
-                {.price = problem.price}, seed)
+  return search(std::move(tour), problem.observations.size(), iterations, {.price = problem.price},
+                seed)
       .made();
 }
 

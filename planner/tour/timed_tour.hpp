@@ -16,7 +16,7 @@ struct TravelConfig;
 /// The views of an orienteering problem, whose way is counted in seconds, with their poses.
 struct TimedProblem {
   const OrienteeringProblem* views = nullptr;
-  std::span<const ViewPose> poses;             // of the views
+  std::span<const ViewPose> poses;  // of the views
   ViewPose start;
   const TravelConfig* travel = nullptr;
   /// The view that a frame at a pose on the way stands for; nothing where none does. Empty: there

@@ -35,9 +35,7 @@ struct Step {
 
   TourScene scene() const { return {config, state.cells, state.patches}; }
   /// What a unit of way has to bring, in small voxels.
-  double price() const {
-    return config.price * expected_surface(state.cells).voxels_a_metre();
-  }
+  double price() const { return config.price * expected_surface(state.cells).voxels_a_metre(); }
   void follow_roadmap() const {
     state.roadmap.follow(belief.grid, state.space, current.p_world_m, stop);
   }
@@ -259,7 +257,8 @@ bool passes_over(const Step& step, const TourView& view, double gain) {
   const TourState& state = step.state;
   if (step.config.cost != TourCost::seconds || state.tour.empty()) return false;
   const auto leg_s = [&](const ViewPose& a, const ViewPose& b) {
-    return step.model.travel.leg_s((a.p_world_m - b.p_world_m).norm(), wrap_angle_rad(b.yaw_rad - a.yaw_rad));
+    return step.model.travel.leg_s((a.p_world_m - b.p_world_m).norm(),
+                                   wrap_angle_rad(b.yaw_rad - a.yaw_rad));
   };
   const ViewPose& next = state.tour.front().pose;
   const double detour_s =

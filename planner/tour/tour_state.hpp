@@ -30,7 +30,7 @@ struct TourState {
   std::vector<Patch> patches;
   std::size_t points_taken = 0;  // of the cloud
   std::size_t ranged_taken = 0;  // of what LIDARs saw
-  std::size_t frames_taken = 0;   // of the frames
+  std::size_t frames_taken = 0;  // of the frames
   GainCalibration calibration;
 
   // where views may be taken from, and what they would see

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "planner/map/ray_walk.hpp"
 #include "planner/core/belief.hpp"
+#include "planner/map/ray_walk.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {

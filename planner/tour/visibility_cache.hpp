@@ -38,7 +38,8 @@ class VisibilityCache {
   /// What all cameras see from a pose, now.
   std::vector<SeenPatch> observe(const TourScene& scene, const ViewPose& view, int threads);
   /// What frames saw together: each patch once, at its best incidence.
-  std::vector<SeenPatch> observe(const TourScene& scene, std::span<const FramePose> looks, int threads);
+  std::vector<SeenPatch> observe(const TourScene& scene, std::span<const FramePose> looks,
+                                 int threads);
 
  private:
   struct AtNode {

@@ -50,8 +50,9 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options) {
 }
 
 void add_preset_option(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("--preset", options.preset,
-                     "paper; or the authors' code: released (2017), authors_2018");
+  command.add_option(
+      "--preset", options.preset,
+      "paper; the authors' code: released (2017), authors_2018; or takeoff: no profile");
 }
 
 CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,

@@ -58,8 +58,7 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
     }
   };
   const bool is_smooth = m.scenario.guidance.trajectory == Trajectory::smooth;
-  std::optional<Termination> over =
-      is_smooth ? fly_past(m, next, look) : fly_legs(m, next, look);
+  std::optional<Termination> over = is_smooth ? fly_past(m, next, look) : fly_legs(m, next, look);
   const auto is_gimbal_late = [&] { return m.gimbal_pitch_rad != next.view.gimbal_pitch_rad; };
   if (!over && is_smooth && is_gimbal_late()) over = come_to_rest(m, look);
   while (!over && is_gimbal_late()) {

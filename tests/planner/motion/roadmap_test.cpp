@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "sim/core/rng.hpp"
 #include "tests/planner/map/drawn_map.hpp"
 
 namespace gnbv {
@@ -165,6 +167,21 @@ TEST(Roadmap, AsksOftenWhetherToStopAndKeepsNothingHalfDone) {
     world.roadmap.follow(world.grid, world.space, here_m);
     const std::span<const float> row_m = world.roadmap.row_m(5);
     EXPECT_TRUE(std::equal(row_m.begin(), row_m.end(), whole_m.begin(), whole_m.end())) << at;
+  }
+}
+
+TEST(Roadmap, TheNearestNodeOfTheLatticeIsThatOfBruteForce) {
+  World world(free_grid(kBox));
+  Rng rng(1, Stream::bench, 0);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p_m =
+        kBox.min() + Vec3(rng.uniform(), rng.uniform(), rng.uniform()).cwiseProduct(kBox.sizes());
+    double least_m = std::numeric_limits<double>::infinity();
+    for (Roadmap::Node node = 1; node < world.roadmap.size(); ++node) {
+      least_m = std::min(least_m, (world.roadmap.p_world_m(node) - p_m).norm());
+    }
+    const Roadmap::Node nearest = world.roadmap.nearest(p_m);
+    EXPECT_NEAR((world.roadmap.p_world_m(nearest) - p_m).norm(), least_m, 1e-9);
   }
 }
 

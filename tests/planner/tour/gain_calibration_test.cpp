@@ -54,8 +54,9 @@ TEST(GainCalibration, FindsAllThatADenseScanBringsAndNothingThatNoneDoes) {
     ASSERT_GT(lacking, 300.0);
     GainCalibration calibration(0.05);
     const float before = calibration.yield().share(kPatch, 0);
-    EXPECT_NEAR(calibration.predict(seen, thin.patches(), thin.cells),
-                static_cast<double>(before) * lacking, 0.2 * lacking);
+    EXPECT_NEAR(calibration.expected(seen, thin.patches()), static_cast<double>(before) * lacking,
+                0.2 * lacking);
+    calibration.note(seen, thin.patches(), thin.cells);
     if (is_scanned) thin.cells.add(plane(1.2, 0.01), thin.grid, 1);
     EXPECT_NEAR(calibration.settle(thin.cells).found, is_scanned ? lacking : 0.0, 0.1 * lacking);
     const float after = calibration.yield().share(kPatch, 0);
@@ -84,7 +85,7 @@ TEST(GainCalibration, ReliabilityFallsWherePredictionsFailAndComesBackThere) {
   const Vec3f here(0.5F * cube_m, 0.5F * cube_m, 1.03F);
   EXPECT_EQ(reliability_at(here), 1.0F);
   for (int view = 0; view < 4; ++view) {
-    calibration.predict(thin.seen(), thin.patches(), thin.cells);
+    calibration.note(thin.seen(), thin.patches(), thin.cells);
     calibration.settle(thin.cells);  // nothing came
   }
   const float before = reliability_at(here);
@@ -92,7 +93,7 @@ TEST(GainCalibration, ReliabilityFallsWherePredictionsFailAndComesBackThere) {
   EXPECT_EQ(reliability_at(here + 3.0F * cube_m * Vec3f::UnitX()), 1.0F) << "nobody looked there";
   std::vector<Patch> patches = thin.patches();
   calibration.set_reliability(patches);
-  calibration.predict(thin.seen(), patches, thin.cells);
+  calibration.note(thin.seen(), patches, thin.cells);
   thin.cells.add(plane(1.2, 0.01), thin.grid, 1);
   calibration.settle(thin.cells);
   EXPECT_GT(reliability_at(here), before);
@@ -106,8 +107,10 @@ TEST(GainCalibration, ReliabilityIsOfThePredictionWithoutIt) {
   GainCalibration doubted(0.05);
   std::vector<Patch> halved = thin.patches();
   for (Patch& patch : halved) patch.reliability = 0.5F;
-  EXPECT_NEAR(2.0 * doubted.predict(thin.seen(), halved, thin.cells),
-              calibration.predict(thin.seen(), thin.patches(), thin.cells), 1e-3);
+  EXPECT_NEAR(2.0 * doubted.expected(thin.seen(), halved),
+              calibration.expected(thin.seen(), thin.patches()), 1e-3);
+  doubted.note(thin.seen(), halved, thin.cells);
+  calibration.note(thin.seen(), thin.patches(), thin.cells);
   SurfaceCells others = thin.cells;
   calibration.settle(thin.cells);
   doubted.settle(others);
