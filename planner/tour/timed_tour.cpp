@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include "planner/motion/config.hpp"
 #include "planner/tour/tour_search.hpp"
@@ -14,7 +13,6 @@ namespace gnbv {
 namespace {
 
 constexpr float kNoWay_s = 1e6F;
-constexpr std::size_t kLikely = 8;  // views that are looked at closely before one is put in
 
 /// Frames on the way are looked at so far apart.
 constexpr double kEnRoute_m = 1.0;
@@ -78,32 +76,21 @@ class Sequence {
 
   double worth() const {
     const OrienteeringProblem& views = *problem_->views;
-    return cover_.found() -
-           views.price * (seconds(order_) + views.way_per_view * double(order_.size()));
+    return cover_.found() - views.price * (seconds() + views.way_per_view * double(order_.size()));
   }
 
   void append(std::uint32_t view) { insert(view, order_.size()); }
 
-  /// Each time what brings the most a second, of those that seem to.
   void complete(double price_of_view, std::span<const double> weights) {
+    const OrienteeringProblem& views = *problem_->views;
     while (true) {
       find_detours();
-      std::vector<std::pair<double, std::uint32_t>> likely;  // rates; the best few
+      double most = kTolerance * views.price;
+      std::optional<std::uint32_t> best;
       for (std::uint32_t view = 0; view < extra_s_.size(); ++view) {
         if (held_[view] > 0 || extra_s_[view] >= kNoWay_s) continue;
         double rate = cover_.gains()[view] / (extra_s_[view] + price_of_view);
         if (!weights.empty()) rate *= static_cast<float>(weights[view]);
-        if (likely.size() == kLikely && rate <= likely.back().first) continue;
-        if (likely.size() == kLikely) likely.pop_back();
-        const auto at = std::find_if(likely.begin(), likely.end(),
-                                     [&](const auto& other) { return other.first < rate; });
-        likely.insert(at, {rate, view});
-      }
-      double most = kTolerance * problem_->views->price;
-      std::optional<std::uint32_t> best;
-      for (const auto& [first_rate, view] : likely) {
-        double rate = rate_of(view, price_of_view);
-        if (!weights.empty()) rate *= weights[view];
         if (rate <= most) continue;
         most = rate;
         best = view;
@@ -144,40 +131,23 @@ class Sequence {
     for (std::size_t i = 0; i < count; ++i) remove(place_of(keyed[i].second));
   }
 
-  /// Views change places while that saves time; kept where it is worth it with the frames on the
-  /// way, too.
   void shorten() {
-    std::vector<std::uint32_t> order = order_;
-    double best_s = seconds(order);
-    const auto try_order = [&](std::vector<std::uint32_t> other) {
-      const double other_s = seconds(other);
-      if (other_s > best_s - 1e-9) return false;
-      best_s = other_s;
-      order = std::move(other);
-      return true;
-    };
-    for (bool is_better = true; is_better;) {
-      is_better = false;
-      for (std::size_t i = 0; i < order.size(); ++i) {
-        for (std::size_t j = 0; j < order.size(); ++j) {
-          if (i == j) continue;
-          std::vector<std::uint32_t> moved = order;
-          moved.erase(moved.begin() + static_cast<std::ptrdiff_t>(i));
-          moved.insert(moved.begin() + static_cast<std::ptrdiff_t>(j), order[i]);
-          is_better |= try_order(std::move(moved));
-          if (i > j) continue;
-          std::vector<std::uint32_t> reversed = order;
-          std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(i),
-                       reversed.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-          is_better |= try_order(std::move(reversed));
-        }
+    const std::size_t stops = order_.size() + 1;
+    Distances seconds(stops, std::vector<double>(stops, 0.0));
+    for (std::size_t i = 0; i < stops; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        seconds[i][j] = seconds[j][i] =
+            j == 0 ? between(kStart, order_[i - 1]) : between(order_[j - 1], order_[i - 1]);
       }
     }
+    std::vector<std::size_t> tour(stops);
+    std::iota(tour.begin(), tour.end(), std::size_t{0});
+    improve_tour(seconds, tour);
+    std::vector<std::uint32_t> order;
+    for (std::size_t i = 1; i < stops; ++i) order.push_back(order_[tour[i] - 1]);
     if (order == order_) return;
-    Sequence other = *this;
-    while (!other.order_.empty()) other.remove(other.order_.size() - 1);
-    for (const std::uint32_t view : order) other.append(view);
-    if (other.worth() > worth()) *this = std::move(other);
+    while (!order_.empty()) remove(order_.size() - 1);
+    for (const std::uint32_t view : order) append(view);
   }
 
  private:
@@ -199,34 +169,13 @@ class Sequence {
     return 0.5 * kBack_s * (1.0 - in_m.dot(out_m) / scale_m2);
   }
 
-  double seconds(std::span<const std::uint32_t> order) const {
+  double seconds() const {
     double sum_s = 0.0;
-    std::uint32_t a = kStart;
-    std::uint32_t b = kStart;
-    for (const std::uint32_t c : order) {
-      sum_s += between(b, c) + corner_s(a, b, c);
-      a = std::exchange(b, c);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      sum_s += between(before(i), order_[i]);
+      if (i > 0) sum_s += corner_s(before(i - 1), before(i), order_[i]);
     }
     return sum_s;
-  }
-
-  /// What the view would bring a second, with the frames on the way to it and from it, and what it
-  /// would take, with the corners.
-  double rate_of(std::uint32_t view, double price_of_view) const {
-    const auto place = static_cast<std::size_t>(at_[view]);
-    const std::uint32_t a = before(place);
-    double gain = cover_.gains()[view];
-    double extra_s = extra_s_[view];
-    const auto add = [&](std::uint32_t v) { gain += held_[v] == 0 ? cover_.gains()[v] : 0.0; };
-    for_each_en_route(a, view, add);
-    if (place > 0) extra_s += corner_s(before(place - 1), a, view);
-    if (place < order_.size()) {
-      const std::uint32_t b = order_[place];
-      for_each_en_route(view, b, add);
-      extra_s += corner_s(a, view, b);
-      if (place > 0) extra_s -= corner_s(before(place - 1), a, b);
-    }
-    return gain / (std::max(0.0, extra_s) + price_of_view);
   }
 
   void hold(std::uint32_t view) {

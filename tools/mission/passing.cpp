@@ -64,18 +64,21 @@ std::variant<WayEnd, Termination> fly_on(Mission& m, std::size_t poses,
   return WayEnd::passed;
 }
 
-/// Takes up the smooth way from here past the poses, if it may be flown.
-bool take_way(Mission& m, std::span<const PassedPose> poses, double speed_m_s) {
+/// Takes up the smooth way from here past the poses, if it may be flown; `nearness`: how near to
+/// them, as a share of the distance allowed.
+bool take_way(Mission& m, std::span<const PassedPose> poses, double nearness, double speed_m_s) {
   const Reference from = reference_now(m);
-  auto path = smooth_path(from, poses, speed_m_s, m.scenario.guidance, m.scenario.vehicle);
+  GuidanceConfig guidance = m.scenario.guidance;
+  guidance.pass_distance_m *= nearness;
+  auto path = smooth_path(from, poses, speed_m_s, guidance, m.scenario.vehicle);
   if (path.empty() || !is_way_free(m, from.p_world_m, path)) return false;
   m.path = std::move(path);
   m.path_at = 0;
   return true;
 }
 
-/// A way past the view: on to as many of the poses after it as may be, to a stop at it, or that
-/// slowly.
+/// A way past the view: on to as many of the poses after it as may be, or to a stop at it; else
+/// with narrower corners, and slowly at last.
 bool find_way(Mission& m, const Decision& next) {
   std::vector<PassedPose> poses;
   for (const Vec3& via_m : next.via_world_m) poses.push_back({{via_m, next.view.yaw_rad}, false});
@@ -83,10 +86,12 @@ bool find_way(Mission& m, const Decision& next) {
   const std::size_t to_view = poses.size();
   for (const Onward& onward : next.then) poses.push_back({onward.pose, onward.is_view});
   const double speed_m_s = m.scenario.guidance.path_speed_m_s;
-  for (std::size_t count = poses.size(); count >= to_view; --count) {
-    if (take_way(m, std::span(poses).first(count), speed_m_s)) return true;
+  for (const double nearness : {1.0, 0.4, 0.15}) {
+    for (std::size_t count = poses.size(); count >= to_view; --count) {
+      if (take_way(m, std::span(poses).first(count), nearness, speed_m_s)) return true;
+    }
   }
-  return take_way(m, std::span(poses).first(to_view), 0.5 * speed_m_s);
+  return take_way(m, std::span(poses).first(to_view), 0.15, 0.5 * speed_m_s);
 }
 
 /// To a stop, straight on; along the way at hand while that is clear and the straight is not.

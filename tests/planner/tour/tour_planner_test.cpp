@@ -10,6 +10,7 @@
 
 #include "planner/core/belief.hpp"
 #include "planner/tour/gains.hpp"
+#include "planner/tour/tour_state.hpp"
 #include "planner/tour/visibility_cache.hpp"
 #include "tests/planner/map/drawn_map.hpp"
 #include "tests/planner/wall_world.hpp"
@@ -194,6 +195,43 @@ TEST(TourPlan, CubesGrowUntilTheyAreFew) {
   double sum = 0.0;
   for (const PatchCube& cube : plan.cubes) sum += cube.expected;
   EXPECT_NEAR(sum, expected, 1e-6 * expected);
+}
+
+TEST(VisibilityCache, AFrameSeesWhatTheViewSeesThatItWasTakenFrom) {
+  const TourWorld world;
+  const PlannerModel model = world.model(1);
+  const Belief belief = thin_wall_ahead(world.planner);
+  TourState state({}, model);
+  state.cells.add(belief.cloud.points_world_m(), belief.grid, 1);
+  state.patches = find_patches(state.cells, belief.grid, 1);
+  const TourScene scene{world.planner.config.tour, state.cells, state.patches};
+  for (const double yaw_rad : {0.0, 0.5, -0.7}) {
+    const ViewPose view{kCurrent.p_world_m, yaw_rad};
+    const FramePose frame = {0, T_world_body(view) * model.cameras[0].T_body_camera};
+    const auto by_view = state.visibility.observe(scene, view, 1);
+    const auto by_frame = state.visibility.observe(scene, {&frame, 1}, 2);
+    ASSERT_GT(by_view.size(), 50U);
+    ASSERT_EQ(by_frame.size(), by_view.size());
+    for (std::size_t i = 0; i < by_view.size(); ++i) {
+      EXPECT_EQ(by_frame[i].patch, by_view[i].patch);
+      EXPECT_EQ(by_frame[i].incidence, by_view[i].incidence);
+    }
+    const std::vector<FramePose> twice = {frame, frame};
+    EXPECT_EQ(state.visibility.observe(scene, twice, 2).size(), by_view.size());
+  }
+}
+
+TEST(VisibilityCache, TheHeadingNearAPoseIsTheOneItDiffersFromTheLeast) {
+  const TourWorld world;
+  const PlannerModel model = world.model(1);
+  const TourState state({}, model);
+  for (int heading = 0; heading < state.visibility.headings(); ++heading) {
+    ViewPose pose = state.visibility.pose(kCurrent.p_world_m, heading);
+    for (const double off_rad : {0.0, deg_to_rad(22.0), -deg_to_rad(22.0), 2.0 * kPi}) {
+      pose.yaw_rad = state.visibility.pose(kCurrent.p_world_m, heading).yaw_rad + off_rad;
+      EXPECT_EQ(state.visibility.heading_near(pose), heading) << off_rad;
+    }
+  }
 }
 
 }  // namespace

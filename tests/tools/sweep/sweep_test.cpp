@@ -190,7 +190,7 @@ TEST_F(SweepFile, AllFaultsAreNamedAtOnceWithTheirLines) {
       "s.yaml:3: scenarios.1.mesh: value 'none.obj': no such file\n"
       "s.yaml:4: utilites: is no known key (did you mean 'utilities'?)\n"
       "s.yaml:5: planner.preset: value 'relesed': is no known name (did you mean 'released'? "
-      "allowed: paper, released, authors_2018)\n"
+      "allowed: paper, released, authors_2018, takeoff)\n"
       "s.yaml:6: variants.0: value '{set: {planner.cloud.leaf_m: 0.02}}': has no key 'name'\n"
       "s.yaml:8: planner.utilty: is no known key (did you mean 'planner.utility'?)\n"
       "s.yaml:9: grid.planner.cloud.leaf_m: value '[]': the list is empty\n"
