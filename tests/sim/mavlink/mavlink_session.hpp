@@ -39,7 +39,8 @@ class Session {
  public:
   explicit Session(double battery_wh = 0.0, std::optional<Address> partner = std::nullopt)
       : vehicle_({}, World{}, ViewPose{}, 1, Px4::Start::on_ground),
-        endpoint_(battery_wh, partner) {}
+        aboard_{.battery_wh = battery_wh},
+        endpoint_(aboard_, partner) {}
 
   template <typename Message>
   void send(const Message& message) {
@@ -68,7 +69,8 @@ class Session {
     listen();
   }
   void listen() {
-    for (const auto& bytes : endpoint_.take_outgoing(now_s(), vehicle_)) {
+    for (const auto& bytes :
+         endpoint_.take_outgoing(now_s(), vehicle_, take_news(aboard_, vehicle_))) {
       ++frames_heard_;
       ReadCounts counts;
       const auto frames = read_frames(bytes, counts);
@@ -130,6 +132,7 @@ class Session {
 
  private:
   Quadrotor vehicle_;
+  Aboard aboard_;
   Endpoint endpoint_;
   std::uint8_t sequence_ = 0;
   std::uint64_t frames_heard_ = 0;
