@@ -253,8 +253,10 @@ void Px4::enter(NavState mode) {
                                  takeoff_.phase >= TakeoffPhase::ramp;
   const std::array<Motion, 3> axes = auto_.axes;
   const double speed_m_s = is_armed_ ? auto_.speed_m_s : 0.0;
+  // a mission that has just landed ends its landing before it begins anew
+  const bool lands = nav_state_ == mode && mission_.phase == Mission::Phase::lands;
+  if (!lands) mission_.phase = Mission::Phase::begins;
   nav_state_ = mode;
-  mission_.phase = Mission::Phase::begins;
   auto_ = begin_auto(mode, parameters_.commander, estimate_, home_world_m_, takeoff_altitude_m_);
   if (was_on_trajectory) auto_.axes = axes;
   auto_.speed_m_s = speed_m_s;
@@ -305,7 +307,11 @@ void Px4::lead() {
       return;
     case MissionEvent::over:
       say(kSeverityInfo, "Mission finished");
+      const AutoFlight last = auto_;
       set_mode(NavState::hold);
+      if (last.stage == AutoFlight::Stage::go_to) {
+        go_to(auto_, last.goal_world_m, last.goal_yaw_rad);
+      }
   }
 }
 

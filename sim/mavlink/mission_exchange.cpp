@@ -67,6 +67,7 @@ std::variant<MissionStep, MissionResult> step_at_place(const MissionItemInt& ite
                            : item.command == kLand  ? Kind::land
                                                     : Kind::waypoint,
                    .p_world_m = std::get<Vec3>(place)};
+  if (item.command == kLand) step.acceptance_m = 0.5;
   if (std::isinf(item.param[3])) return invalid(4);
   step.yaw_rad = swap_yaw_enu_ned(deg_to_rad(static_cast<double>(item.param[3])));
   if (item.command == kLoiterUnlimited) step.hold_s = std::numeric_limits<double>::infinity();

@@ -37,9 +37,10 @@ Message said(const VehicleReport& report) {
 /// A client and the vehicle on open ground, in step: wall time is simulation time.
 class Session {
  public:
-  explicit Session(double battery_wh = 0.0, std::optional<Address> partner = std::nullopt)
-      : vehicle_({}, World{}, ViewPose{}, 1, Px4::Start::on_ground),
-        aboard_{.battery_wh = battery_wh},
+  explicit Session(const Aboard& aboard = {}, std::optional<Address> partner = std::nullopt,
+                   const ViewPose& start = {})
+      : vehicle_({}, World{}, start, 1, Px4::Start::on_ground),
+        aboard_(aboard),
         endpoint_(aboard_, partner) {}
 
   template <typename Message>
