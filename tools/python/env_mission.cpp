@@ -59,11 +59,8 @@ EnvMission::EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Pe
       process_(getpid()) {}
 
 EnvMission::~EnvMission() {
-  if (getpid() == process_) {
-    while (!close()) continue;
-  } else {
-    static_cast<void>(thread_.release());  // that of the parent can be neither joined nor detached
-  }
+  while (!close()) continue;
+  static_cast<void>(thread_.release());  // a parent's can be neither joined nor detached
 }
 
 void EnvMission::check_process() const {
@@ -75,8 +72,7 @@ void EnvMission::check_process() const {
 }
 
 bool EnvMission::close() {
-  check_process();
-  if (!thread_) return true;
+  if (!thread_ || getpid() != process_) return true;
   std::unique_lock lock(mutex_);
   is_closing_ = true;
   turned_.notify_all();
