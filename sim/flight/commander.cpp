@@ -163,7 +163,7 @@ bool prevents_arming(NavState mode) {
 
 bool can_run(NavState mode, double offboard_silence_s, const CommanderParameters& parameters) {
   if (mode == NavState::offboard) return offboard_silence_s < parameters.offboard_loss_s;
-  return mode >= NavState::hold;
+  return mode >= NavState::hold && mode != NavState::mission;
 }
 
 std::optional<NavState> choose_mode(NavState intention, double offboard_silence_s,

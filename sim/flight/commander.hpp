@@ -38,7 +38,7 @@ std::optional<NavState> nav_state_of(long main_mode, long sub_mode);
 bool prevents_arming(NavState mode);
 
 /// Whether a mode can run (mode_requirements.cpp) when the last valid offboard setpoint came that
-/// long ago. Estimates never fail here; whether there is a mission Px4 knows.
+/// long ago. Estimates never fail here; a mission Px4 knows of, not this.
 bool can_run(NavState mode, double offboard_silence_s, const CommanderParameters& parameters);
 
 /// The mode of an armed vehicle that was told `intention` (failsafe.cpp, framework.cpp); nothing

@@ -207,7 +207,7 @@ double Px4::offboard_silence_s() const {
 }
 
 bool Px4::can_run_now(NavState mode) const {
-  if (mode == NavState::mission && mission_.steps.empty()) return false;
+  if (mode == NavState::mission) return !mission_.steps.empty();
   return can_run(mode, offboard_silence_s(), parameters_.commander);
 }
 
@@ -227,9 +227,7 @@ void Px4::update_mode() {
   }
   std::optional<NavState> mode = intention_;
   if (is_armed_ && !can_run_now(intention_)) {
-    mode = intention_ == NavState::mission
-               ? NavState::hold
-               : choose_mode(intention_, offboard_silence_s(), parameters_.commander);
+    mode = choose_mode(intention_, offboard_silence_s(), parameters_.commander);
   }
   if (!mode) {
     say(kSeverityCritical, "Failsafe: offboard stream lost, disarming");

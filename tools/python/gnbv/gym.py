@@ -384,7 +384,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         return tuple(episode.picture() for episode in self._episodes) if self.render_mode else None
 
     def close_extras(self, **kwargs: Any) -> None:
-        for episode in self._episodes:
+        for episode in getattr(self, "_episodes", []):  # none where __init__ raised
             episode.close()
 
 
