@@ -6,7 +6,7 @@ namespace gnbv {
 namespace {
 
 using Kind = MissionStep::Kind;
-using Phase = Mission::Phase;
+using Phase = UploadedMission::Phase;
 
 /// Axes that are not said stay where the vehicle is.
 Vec3 place_of(const MissionStep& step, const Vec3& p_world_m) {
@@ -15,7 +15,7 @@ Vec3 place_of(const MissionStep& step, const Vec3& p_world_m) {
 
 /// Landings begin above their place, and takeoffs as well as waypoints from the ground with a
 /// climb.
-void begin_step(Mission& mission, AutoFlight& flight, const CommanderParameters& parameters,
+void begin_step(UploadedMission& mission, AutoFlight& flight, const CommanderParameters& parameters,
                 const Vec3& p_world_m, bool is_landed) {
   const MissionStep& step = mission.steps[mission.current];
   Vec3 goal_m = place_of(step, p_world_m);
@@ -34,7 +34,7 @@ void begin_step(Mission& mission, AutoFlight& flight, const CommanderParameters&
 }
 
 /// Whether the step is done.
-bool step_on(Mission& mission, AutoFlight& flight, const Vec3& p_world_m, bool is_landed,
+bool step_on(UploadedMission& mission, AutoFlight& flight, const Vec3& p_world_m, bool is_landed,
              double dt_s) {
   const MissionStep& step = mission.steps[mission.current];
   const Vec3 left_m = flight.goal_world_m - p_world_m;
@@ -64,7 +64,7 @@ bool step_on(Mission& mission, AutoFlight& flight, const Vec3& p_world_m, bool i
 
 }  // namespace
 
-MissionEvent step_mission(Mission& mission, AutoFlight& flight,
+MissionEvent step_mission(UploadedMission& mission, AutoFlight& flight,
                           const CommanderParameters& parameters, const VehicleState& estimate,
                           bool is_landed, double dt_s) {
   const Vec3 p_world_m = estimate.T_world_body.translation();

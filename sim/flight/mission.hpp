@@ -21,7 +21,7 @@ struct MissionStep {
 };
 
 /// Waypoints of a vehicle that stands on the ground begin with a climb to MIS_TAKEOFF_ALT.
-struct Mission {
+struct UploadedMission {
   enum class Phase : std::uint8_t { begins, climbs, goes, holds, lands };
   std::vector<MissionStep> steps;
   std::size_t current = 0;
@@ -35,7 +35,7 @@ enum class MissionEvent { none, over, returns_home };
 
 /// What the vehicle does next: leads `flight` to where the current step wants it, and goes on to
 /// the next step when that is done. `over` and `returns_home` leave the mission to begin anew.
-MissionEvent step_mission(Mission& mission, AutoFlight& flight,
+MissionEvent step_mission(UploadedMission& mission, AutoFlight& flight,
                           const CommanderParameters& parameters, const VehicleState& estimate,
                           bool is_landed, double dt_s);
 

@@ -131,7 +131,7 @@ Ack Px4::reposition(const Vec3& goal_world_m, double yaw_rad, double speed_m_s) 
 
 void Px4::set_mission(std::vector<MissionStep> steps) {
   const bool is_cleared = steps.empty();
-  mission_ = Mission{.steps = std::move(steps)};
+  mission_ = UploadedMission{.steps = std::move(steps)};
   if (is_cleared && intention_ == NavState::mission) {
     intention_ = intention_after_disarming_ = NavState::hold;
   }
@@ -140,7 +140,7 @@ void Px4::set_mission(std::vector<MissionStep> steps) {
 bool Px4::set_current_step(std::size_t step) {
   if (step >= mission_.steps.size()) return false;
   mission_.current = step;
-  mission_.phase = Mission::Phase::begins;
+  mission_.phase = UploadedMission::Phase::begins;
   mission_.is_complete = false;
   return true;
 }
@@ -148,7 +148,7 @@ bool Px4::set_current_step(std::size_t step) {
 bool Px4::is_taking_off() const {
   if (land_.is_landed) return false;
   return nav_state_ == NavState::takeoff ||
-         (nav_state_ == NavState::mission && mission_.phase == Mission::Phase::climbs);
+         (nav_state_ == NavState::mission && mission_.phase == UploadedMission::Phase::climbs);
 }
 
 bool Px4::is_landing() const {
@@ -252,8 +252,8 @@ void Px4::enter(NavState mode) {
   const std::array<Motion, 3> axes = auto_.axes;
   const double speed_m_s = is_armed_ ? auto_.speed_m_s : 0.0;
   // a mission that has just landed ends its landing before it begins anew
-  const bool lands = nav_state_ == mode && mission_.phase == Mission::Phase::lands;
-  if (!lands) mission_.phase = Mission::Phase::begins;
+  const bool lands = nav_state_ == mode && mission_.phase == UploadedMission::Phase::lands;
+  if (!lands) mission_.phase = UploadedMission::Phase::begins;
   nav_state_ = mode;
   auto_ = begin_auto(mode, parameters_.commander, estimate_, home_world_m_, takeoff_altitude_m_);
   if (was_on_trajectory) auto_.axes = axes;

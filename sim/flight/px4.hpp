@@ -83,7 +83,7 @@ class Px4 {
   bool is_in_failsafe() const { return is_in_failsafe_; }
   /// Where it was armed last; before that where it stood.
   const Eigen::Vector2d& home_world_m() const { return home_world_m_; }
-  const Mission& mission() const { return mission_; }
+  const UploadedMission& mission() const { return mission_; }
   /// Steps done since the last call.
   std::vector<std::uint16_t> take_reached() { return std::exchange(mission_.reached, {}); }
   const CommanderParameters& commander() const { return parameters_.commander; }
@@ -130,7 +130,7 @@ class Px4 {
 
   double takeoff_altitude_m_ = 0.0;
   AutoFlight auto_;
-  Mission mission_;
+  UploadedMission mission_;
   Takeoff takeoff_;
   LandDetector land_ = kOnGround;
   Setpoint setpoint_;  // what is flown now

@@ -223,7 +223,7 @@ HighresImu highres_imu(const VehicleReport& report) {
 MissionCurrent mission_current(const VehicleReport& report) {
   constexpr std::uint8_t kNone = 1, kNotStarted = 2, kActive = 3, kPaused = 4, kComplete = 5;
   const Px4& px4 = *report.px4;
-  const Mission& mission = px4.mission();
+  const UploadedMission& mission = px4.mission();
   const std::size_t count = mission.steps.size();
   const bool is_on = px4.nav_state() == NavState::mission;
   return {.seq = static_cast<std::uint16_t>(mission.current),

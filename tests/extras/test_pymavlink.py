@@ -290,7 +290,7 @@ def test_a_ground_station_listens_beside_the_program(fly, connected):
                   "--mavlink", f"udpout://127.0.0.1:{port + 1}", port=port)
     program = connected(f"udpin:127.0.0.1:{port}")
     station = connected(f"udpin:127.0.0.1:{port + 1}")
-    for command, message in ((148, "AUTOPILOT_VERSION"), (300, "PROTOCOL_VERSION"),
+    for command, message in ((148, "AUTOPILOT_VERSION"), (42, "MISSION_CURRENT"),
                              (242, "HOME_POSITION"), (331, "ODOMETRY"), (105, "HIGHRES_IMU")):
         station.link.mav.command_long_send(1, 1, mavlink.MAV_CMD_REQUEST_MESSAGE, 0, command,
                                            0, 0, 0, 0, 0, 0)

@@ -72,8 +72,8 @@ class EnvMission final : public MissionObserver {
   EnvMission(const EnvMission&) = delete;
   EnvMission& operator=(const EnvMission&) = delete;
 
-  // The thread is of the process that made the mission: in a forked child there is none, close() has
-  // nothing to do, and the others throw std::runtime_error.
+  // The thread is of the process that made the mission: in a forked child there is none, close()
+  // has nothing to do, and the others throw std::runtime_error.
 
   /// Begins anew; wait() says when it wants a view. Requires that close() returned true.
   void begin(std::uint64_t seed);
