@@ -227,7 +227,7 @@ def test_ctrl_c_ends_a_wait_and_what_is_left_says_so():
     with pytest.raises(KeyboardInterrupt):
         env.reset(seed=1)
     assert time.monotonic() - begin < 2.0
-    with pytest.raises(RuntimeError, match="interrupted.*reset"):
+    with pytest.raises(RuntimeError, match=r"interrupted.*reset"):
         env.step(env.action_space.sample())
     env.close()
 

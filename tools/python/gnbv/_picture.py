@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -32,20 +33,20 @@ def from_above(
     high_m: Sequence[float],
     way: Sequence[npt.NDArray[np.float64]],
 ) -> Picture:
-    """`top`: (y, x, 2) as _core's, of the x and y from low_m to high_m; `way`: x, y, z, yaw, pitch of
-    each view. North is up. Surface is blue below and orange above; grey is not yet seen."""
+    """`top`: (y, x, 2) as _core's, of the x and y from low_m to high_m; `way`: x, y, z, yaw, pitch
+    of each view. North is up. Surface is blue below and orange above; grey is not yet seen."""
     height, unknown = top[::-1, :, 0, None], top[::-1, :, 1, None]
     ground = _FREE + unknown * (_UNKNOWN - _FREE)
     cells = np.where(height < 0.0, ground, _LOW + np.clip(height, 0.0, 1.0) * (_HIGH - _LOW))
     factor = -(-SIDE_PX // max(cells.shape[:2]))
-    picture = np.rint(cells).astype(np.uint8).repeat(factor, axis=0).repeat(factor, axis=1)
+    picture: Picture = np.rint(cells).astype(np.uint8).repeat(factor, axis=0).repeat(factor, axis=1)
     scale = np.array([picture.shape[1], picture.shape[0]]) / np.subtract(high_m, low_m)
 
     def pixel(x: float, y: float) -> Any:
         column, row = (np.array([x, y]) - low_m) * scale
         return column - 0.5, picture.shape[0] - row - 0.5
 
-    for a, b in zip(way[:-1], way[1:], strict=True):
+    for a, b in pairwise(way):
         _line(picture, pixel(a[0], a[1]), pixel(b[0], b[1]), _WAY, 2)
     x, y, _, yaw, _ = way[-1]
     ahead_m = 24.0 / scale[0]

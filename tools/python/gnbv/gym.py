@@ -63,6 +63,9 @@ SCENARIOS = {
     "Smoke": "smoke",
 }
 _METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 4}
+_VECTOR_METADATA: dict[str, Any] = dict(_METADATA)
+if hasattr(gymnasium.vector, "AutoresetMode"):  # Gymnasium 1.0 has no word for what it does
+    _VECTOR_METADATA["autoreset_mode"] = gymnasium.vector.AutoresetMode.NEXT_STEP
 _OVER = ("coverage_reached", "collision", "off_course")
 Array = npt.NDArray[Any]
 Observation = dict[str, Array]
@@ -121,8 +124,7 @@ class _Stage:
         kinds, words = ("iu", "whole numbers") if self.is_candidate else ("iuf", "numbers")
         if given.shape != shape or given.dtype.kind not in kinds:
             raise ValueError(
-                f"step: expected {words} of shape {shape}, got shape {given.shape} "
-                f"of {given.dtype}"
+                f"step: expected {words} of shape {shape}, got shape {given.shape} of {given.dtype}"
             )
         return given
 
@@ -293,15 +295,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
     as the machine has). Results do not depend on it. An episode that is over begins anew with the
     next step (AutoresetMode.NEXT_STEP)."""
 
-    # Gymnasium 1.0 has no word for it: its vectors begin anew so
-    metadata = {
-        **_METADATA,
-        **{
-            "autoreset_mode": mode.NEXT_STEP
-            for mode in [getattr(gymnasium.vector, "AutoresetMode", None)]
-            if mode is not None
-        },
-    }
+    metadata = _VECTOR_METADATA
 
     def __init__(
         self,
