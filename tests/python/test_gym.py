@@ -291,7 +291,7 @@ def test_a_picture_shows_the_map_and_the_way(kind):
     first = pictures()
     for _ in range(3):
         env.step(env.action_space.sample())
-    for before, after in zip(first, pictures()):
+    for before, after in zip(first, pictures(), strict=True):
         assert before.dtype == np.uint8 and before.shape == after.shape and before.shape[2] == 3
         way = (after == (200, 30, 60)).all(axis=2).sum()
         assert way > 20 and (before == (200, 30, 60)).all(axis=2).sum() == 0
