@@ -65,6 +65,11 @@ void fields(const Keys& key, AirframeParameters& c) {
   key("hull_height_m", c.hull_height_m, positive(10), "Of the collision cylinder.");
 }
 
+void fields(const Keys& key, CommanderParameters& c) {
+  key("offboard_loss_s", c.offboard_loss_s, {0.1, 60},
+      "COM_OF_LOSS_T: a client that is silent for longer is lost.");
+}
+
 void fields(const Keys& key, AutopilotParameters& c) {
   constexpr Range kGain = {0, 1e3};
   constexpr Range kShare = {0, 1};
@@ -91,6 +96,7 @@ void fields(const Keys& key, AutopilotParameters& c) {
   key("rate_integral_max", c.rate_integral_max, kShare, "MC_RR_INT_LIM and its twins.");
   key.angle("rate_integral_fade_deg_s", c.rate_integral_fade_rad_s, positive(1e5),
             "Rate error beyond which nothing is integrated.");
+  key.section("commander", c.commander, "What clients set, too, by PX4's names.");
 }
 
 void fields(const Keys& key, PowerParameters& c) {
@@ -144,6 +150,7 @@ void fields(const Keys& key, VehicleConfig& c) {
   if (c.preset != before) c = vehicle_preset(c.preset);
   key("kind", c.kind, {{VehicleKind::quadrotor, "quadrotor"}, {VehicleKind::ideal, "ideal"}},
       "quadrotor: rigid body under an autopilot; ideal: moves exactly as commanded.");
+  key("system_id", c.system_id, {1, 250}, "MAV_SYS_ID of `gnbv fly`, one for each vehicle.");
   key.of_papers_setting().section("estimate", c.estimate, "What the vehicle knows of itself.");
   key.section("airframe", c.airframe, "Rigid body and rotors.");
   key.only_if(c.kind != VehicleKind::ideal, "vehicle.kind")

@@ -20,7 +20,6 @@ constexpr std::array kRemoved = std::to_array<RemovedKey>({
     {"planner.tour.recasts", "80"},
     {"planner.tour.items_max", "12000"},
     {"planner.tour.end_share", "0.003"},
-    {"vehicle.autopilot.commander.offboard_loss_s", "COM_OF_LOSS_T"},
     {"vehicle.autopilot.commander.offboard_loss_hold_s", "COM_FAIL_ACT_T"},
     {"vehicle.autopilot.commander.offboard_loss_action", "COM_OBL_RC_ACT"},
     {"vehicle.autopilot.commander.disarm_after_landing_s", "COM_DISARM_LAND"},

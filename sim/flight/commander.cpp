@@ -46,8 +46,9 @@ bool has_held(bool condition, double needed_s, double dt_s, double& held_s) {
 using Vec2 = Eigen::Vector2d;
 using Stage = AutoFlight::Stage;
 
-constexpr double kAltitudeArrival_m = 0.8;  // NAV_MC_ALT_RAD; the rest of the way is flown as well
-constexpr double kHomeArrival_m = 0.5;      // of RTL, before it descends and still comes nearer
+constexpr double kAcceptance_m = 2.0;                // NAV_ACC_RAD
+constexpr double kYawRate_rad_s = deg_to_rad(45.0);  // MPC_YAWRAUTO_MAX
+constexpr double kHomeArrival_m = 0.5;  // of RTL, before it descends and still comes nearer
 
 /// MPC_Z_V_AUTO_DN far above the ground, MPC_LAND_SPEED near it.
 double landing_speed_m_s(const CommanderParameters& parameters, double height_m) {
@@ -81,9 +82,31 @@ Vec3 each(const AutoFlight& flight, double Motion::*number) {
   return {flight.axes[0].*number, flight.axes[1].*number, flight.axes[2].*number};
 }
 
+/// Straight to the goal: the slowest of what each axis may do and what can still brake.
+Vec3 velocity_to_goal(const AutoFlight& flight, const CommanderParameters& parameters) {
+  const Vec3 way_m = flight.goal_world_m - each(flight, &Motion::position);
+  const double distance_m = way_m.norm();
+  if (distance_m < 1e-6) return Vec3::Zero();
+  const Vec3 along = way_m / distance_m;
+  const AxisLimits vertical = vertical_limits(parameters, along.z() > 0.0);
+  const AxisLimits level = level_limits(parameters);
+  const double level_m_s = flight.speed_m_s > 0.0 ? flight.speed_m_s : parameters.cruise_speed_m_s;
+  const double vertical_m_s =
+      along.z() > 0.0 ? parameters.climb_speed_m_s : parameters.descent_speed_m_s;
+  const auto share = [](double limit, double part) { return limit / std::max(part, 1e-6); };
+  const double level_part = along.head<2>().norm();
+  const double vertical_part = std::abs(along.z());
+  const AxisLimits both = {
+      std::min(share(level.acceleration, level_part), share(vertical.acceleration, vertical_part)),
+      level.jerk};
+  return along * std::min({share(level_m_s, level_part), share(vertical_m_s, vertical_part),
+                           braking_speed(distance_m, both)});
+}
+
 /// The velocity that the trajectory is to take up. It brakes and stays on an axis that has no goal.
 Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parameters,
                      double height_m) {
+  if (flight.stage == Stage::go_to) return velocity_to_goal(flight, parameters);
   const Vec3 p_world_m = each(flight, &Motion::position);
   Vec3 v_m_s = Vec3::Zero();
   if (flight.stage == Stage::climb || flight.stage == Stage::go_home) {
@@ -254,12 +277,25 @@ Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
     }
   }
   move_trajectory(flight, parameters, p_world_m, dt_s);
+  if (flight.stage == Stage::go_to && std::isfinite(flight.goal_yaw_rad)) {
+    const double turn_rad = wrap_angle_rad(flight.goal_yaw_rad - flight.yaw_rad);
+    const double step_rad = kYawRate_rad_s * dt_s;
+    flight.yaw_rad = wrap_angle_rad(flight.yaw_rad + std::clamp(turn_rad, -step_rad, step_rad));
+  }
   Setpoint setpoint{.p_world_m = each(flight, &Motion::position),
                     .v_world_m_s = each(flight, &Motion::speed),
                     .a_world_m_s2 = each(flight, &Motion::acceleration),
                     .yaw_rad = flight.yaw_rad};
   if (flight.stage == Stage::land) setpoint.p_world_m.z() = kNotControlled;  // ground not known
   return setpoint;
+}
+
+void go_to(AutoFlight& flight, const Vec3& goal_world_m, double yaw_rad) {
+  const Vec2 way_m = (goal_world_m - each(flight, &Motion::position)).head<2>();
+  const bool faces_way = std::isnan(yaw_rad) && way_m.norm() > kAcceptance_m;
+  flight.stage = Stage::go_to;
+  flight.goal_world_m = goal_world_m;
+  flight.goal_yaw_rad = faces_way ? std::atan2(way_m.y(), way_m.x()) : yaw_rad;
 }
 
 bool is_finished(const AutoFlight& flight, const VehicleState& estimate) {

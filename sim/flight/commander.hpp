@@ -38,7 +38,7 @@ std::optional<NavState> nav_state_of(long main_mode, long sub_mode);
 bool prevents_arming(NavState mode);
 
 /// Whether a mode can run (mode_requirements.cpp) when the last valid offboard setpoint came that
-/// long ago. Estimates never fail here, and there is no mission.
+/// long ago. Estimates never fail here; a mission Px4 knows of, not this.
 bool can_run(NavState mode, double offboard_silence_s, const CommanderParameters& parameters);
 
 /// The mode of an armed vehicle that was told `intention` (failsafe.cpp, framework.cpp); nothing
@@ -95,16 +95,26 @@ LandDetector next(const LandDetector& detector, const CommanderParameters& param
 
 /// What an Auto mode remembers: PX4's hold, takeoff, land and return as setpoints along
 /// jerk-limited trajectories (FlightTaskAuto.cpp, PositionSmoothing.cpp, rtl.cpp). The heading
-/// stays that of the mode's begin; PX4 would turn towards home on the way back.
+/// stays that of the mode's begin but on the way to a place; PX4 would also turn towards home.
 struct AutoFlight {
-  enum class Stage { hold, climb, go_home, land };
+  enum class Stage { hold, climb, go_home, go_to, land };
   Stage stage = Stage::hold;
   NavState mode = NavState::hold;
   std::array<Motion, 3> axes;  // the trajectory, world ENU
   double yaw_rad = 0.0;
   double altitude_m = 0.0;  // that `climb` ends at, world z
   Eigen::Vector2d home_world_m = Eigen::Vector2d::Zero();
+  Vec3 goal_world_m = Vec3::Zero();      // of `go_to`
+  double goal_yaw_rad = kNotControlled;  // NaN: as it is
+  double speed_m_s = 0.0;                // over ground; 0: MPC_XY_CRUISE
 };
+
+/// NAV_MC_ALT_RAD: this near an altitude is there; the rest of the way is flown as well.
+constexpr double kAltitudeArrival_m = 0.8;
+
+/// From now on straight to that place, where it stays; `yaw_rad` NaN: facing the way, where it is
+/// longer than NAV_ACC_RAD.
+void go_to(AutoFlight& flight, const Vec3& goal_world_m, double yaw_rad);
 
 /// Begins a mode where the vehicle is and with the velocity it has. `altitude_m`: that of a
 /// takeoff, above the ground (world z = 0); a vehicle that is higher stays there.

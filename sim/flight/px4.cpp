@@ -14,6 +14,9 @@ enum MavCommand : std::uint16_t {
   kNavLand = 21,
   kNavTakeoff = 22,
   kDoSetMode = 176,
+  kDoChangeSpeed = 178,
+  kDoSetMissionCurrent = 224,
+  kMissionStart = 300,
   kComponentArmDisarm = 400
 };
 constexpr long kForce = 21196;
@@ -26,7 +29,7 @@ constexpr double kRampThrustMin = 1e-3;
 
 bool is_auto(NavState mode) {
   return mode == NavState::hold || mode == NavState::takeoff || mode == NavState::land ||
-         mode == NavState::rtl;
+         mode == NavState::rtl || mode == NavState::mission;
 }
 
 std::string text_of(NavState mode) { return std::string(name_of(mode)); }
@@ -85,9 +88,71 @@ Ack Px4::command(const Px4Command& command) {
       return set_mode(NavState::land);
     case kNavReturnToLaunch:
       return set_mode(NavState::rtl);
+    case kDoChangeSpeed:
+      return change_speed(command.param[0], command.param[1]);
+    case kDoSetMissionCurrent:
+      return whole(0) >= 0 && set_current_step(static_cast<std::size_t>(whole(0))) ? Ack::accepted
+                                                                                   : Ack::denied;
+    case kMissionStart:
+      return start_mission(command.param[0]);
     default:
       return Ack::unsupported;
   }
+}
+
+/// Of the ways of changing speed that PX4 has only that over ground (by air is the same here).
+Ack Px4::change_speed(double kind, double speed_m_s) {
+  if (kind != 0.0 && kind != 1.0) return Ack::unsupported;
+  const bool is_default = speed_m_s == -2.0;
+  if (!is_default && speed_m_s != -1.0 &&
+      !(speed_m_s > 0.0 && speed_m_s <= parameters_.speed_max_m_s))
+    return Ack::denied;
+  if (speed_m_s != -1.0) auto_.speed_m_s = is_default ? 0.0 : speed_m_s;
+  return Ack::accepted;
+}
+
+Ack Px4::start_mission(double first_step) {
+  const double count = static_cast<double>(mission_.steps.size());
+  if (!(first_step >= -1.0 && first_step < count) || count == 0.0) return Ack::denied;
+  if (first_step >= 0.0) set_current_step(static_cast<std::size_t>(first_step));
+  const Ack ack = set_mode(NavState::mission);
+  return ack == Ack::accepted ? arm(true) : ack;
+}
+
+Ack Px4::reposition(const Vec3& goal_world_m, double yaw_rad, double speed_m_s) {
+  if (!is_armed_ || land_.is_landed) return reject("Reposition is not possible on the ground");
+  const Ack ack = set_mode(NavState::hold);
+  if (ack != Ack::accepted) return ack;
+  if (speed_m_s > 0.0) auto_.speed_m_s = std::min(speed_m_s, parameters_.speed_max_m_s);
+  const Vec3 p_world_m = estimate_.T_world_body.translation();
+  go_to(auto_, goal_world_m.array().isNaN().select(p_world_m, goal_world_m), yaw_rad);
+  return ack;
+}
+
+void Px4::set_mission(std::vector<MissionStep> steps) {
+  const bool is_cleared = steps.empty();
+  mission_ = UploadedMission{.steps = std::move(steps)};
+  if (is_cleared && intention_ == NavState::mission) {
+    intention_ = intention_after_disarming_ = NavState::hold;
+  }
+}
+
+bool Px4::set_current_step(std::size_t step) {
+  if (step >= mission_.steps.size()) return false;
+  mission_.current = step;
+  mission_.phase = UploadedMission::Phase::begins;
+  mission_.is_complete = false;
+  return true;
+}
+
+bool Px4::is_taking_off() const {
+  if (land_.is_landed) return false;
+  return nav_state_ == NavState::takeoff ||
+         (nav_state_ == NavState::mission && mission_.phase == UploadedMission::Phase::climbs);
+}
+
+bool Px4::is_landing() const {
+  return !land_.is_landed && is_auto(nav_state_) && auto_.stage == AutoFlight::Stage::land;
 }
 
 Ack Px4::arm(bool armed, bool force) {
@@ -98,8 +163,7 @@ Ack Px4::arm(bool armed, bool force) {
     return Ack::accepted;
   }
   // force skips no check here: PX4 runs them for any arming from outside
-  if (!can_run(intention_, offboard_silence_s(), parameters_.commander) ||
-      prevents_arming(nav_state_)) {
+  if (!can_run_now(intention_) || prevents_arming(nav_state_)) {
     return reject("Arming denied: not in " + text_of(intention_));
   }
   is_armed_ = true;
@@ -115,8 +179,7 @@ Ack Px4::arm(bool armed, bool force) {
 
 Ack Px4::set_mode(NavState mode) {
   // LAND is always taken
-  const bool is_allowed = !is_armed_ || mode == NavState::land ||
-                          can_run(mode, offboard_silence_s(), parameters_.commander);
+  const bool is_allowed = !is_armed_ || mode == NavState::land || can_run_now(mode);
   if (nav_state_ == NavState::terminate || !is_allowed) {
     return reject("Switching to " + text_of(mode) + " is not possible now");
   }
@@ -143,6 +206,11 @@ double Px4::offboard_silence_s() const {
   return static_cast<double>(tick_ - *heartbeat_tick_) * kTick_s;
 }
 
+bool Px4::can_run_now(NavState mode) const {
+  if (mode == NavState::mission) return !mission_.steps.empty();
+  return can_run(mode, offboard_silence_s(), parameters_.commander);
+}
+
 void Px4::disarm() {
   is_armed_ = false;
   intention_ = intention_after_disarming_;
@@ -157,8 +225,10 @@ void Px4::update_mode() {
       is_finished(auto_, estimate_)) {  // HOLD ends what is left of the way
     intention_ = intention_after_disarming_ = nav_state_ = auto_.mode = NavState::hold;
   }
-  const std::optional<NavState> mode =
-      is_armed_ ? choose_mode(intention_, offboard_silence_s(), parameters_.commander) : intention_;
+  std::optional<NavState> mode = intention_;
+  if (is_armed_ && !can_run_now(intention_)) {
+    mode = choose_mode(intention_, offboard_silence_s(), parameters_.commander);
+  }
   if (!mode) {
     say(kSeverityCritical, "Failsafe: offboard stream lost, disarming");
     disarm();
@@ -180,9 +250,14 @@ void Px4::enter(NavState mode) {
   const bool was_on_trajectory = is_auto(nav_state_) && auto_.stage < AutoFlight::Stage::land &&
                                  takeoff_.phase >= TakeoffPhase::ramp;
   const std::array<Motion, 3> axes = auto_.axes;
+  const double speed_m_s = is_armed_ ? auto_.speed_m_s : 0.0;
+  // a mission that has just landed ends its landing before it begins anew
+  const bool lands = nav_state_ == mode && mission_.phase == UploadedMission::Phase::lands;
+  if (!lands) mission_.phase = UploadedMission::Phase::begins;
   nav_state_ = mode;
   auto_ = begin_auto(mode, parameters_.commander, estimate_, home_world_m_, takeoff_altitude_m_);
   if (was_on_trajectory) auto_.axes = axes;
+  auto_.speed_m_s = speed_m_s;
   offboard_setpoint_ = Setpoint{};
   has_warned_of_setpoint_ = false;
 }
@@ -211,12 +286,31 @@ RotorSpeeds Px4::rate_step(const Vec3& omega_body_rad_s) {
 /// Whether somebody asks the waiting vehicle to fly: offboard, a fresh and valid setpoint that
 /// leads upwards.
 bool Px4::wants_takeoff() const {
-  if (nav_state_ == NavState::takeoff) return true;
+  if (nav_state_ == NavState::takeoff || nav_state_ == NavState::mission) return true;
   if (nav_state_ != NavState::offboard || offboard_silence_s() >= kTakeoffSetpointAge_s ||
       !is_valid(offboard_setpoint_))
     return false;
   return offboard_setpoint_.p_world_m.z() > estimate_.T_world_body.translation().z() ||
          offboard_setpoint_.v_world_m_s.z() > 0.0 || offboard_setpoint_.a_world_m_s2.z() > 0.0;
+}
+
+/// By the mission; what comes after it is another mode's.
+void Px4::lead() {
+  switch (step_mission(mission_, auto_, parameters_.commander, estimate_, land_.is_landed,
+                       kPositionLoop_s)) {
+    case MissionEvent::none:
+      return;
+    case MissionEvent::returns_home:
+      set_mode(NavState::rtl);
+      return;
+    case MissionEvent::over:
+      say(kSeverityInfo, "Mission finished");
+      const AutoFlight last = auto_;
+      set_mode(NavState::hold);
+      if (last.stage == AutoFlight::Stage::go_to) {
+        go_to(auto_, last.goal_world_m, last.goal_yaw_rad);
+      }
+  }
 }
 
 void Px4::run_position_loop() {
@@ -226,6 +320,7 @@ void Px4::run_position_loop() {
   setpoint_ = offboard_setpoint_;
   if (is_auto(nav_state_)) {
     if (takeoff_.phase < TakeoffPhase::ramp) enter(nav_state_);  // the trajectory waits as well
+    if (nav_state_ == NavState::mission) lead();
     setpoint_ = step_auto(auto_, commander, estimate_, kPositionLoop_s);
   }
 

@@ -13,6 +13,7 @@
 
 #include "sim/flight/cascade.hpp"
 #include "sim/flight/commander.hpp"
+#include "sim/flight/mission.hpp"
 
 namespace gnbv {
 
@@ -22,7 +23,9 @@ enum class Ack : std::uint8_t { accepted, temporarily_rejected, denied, unsuppor
 /// A MAV_CMD with its seven parameters, as COMMAND_LONG carries them. Known: 400
 /// COMPONENT_ARM_DISARM (21196 in param2 forces), 176 DO_SET_MODE (param2 main mode, param3 sub
 /// mode, PX4's custom modes), 22 NAV_TAKEOFF (param7: altitude above the ground in metres, NaN for
-/// the default), 21 NAV_LAND, 20 NAV_RETURN_TO_LAUNCH.
+/// the default), 21 NAV_LAND, 20 NAV_RETURN_TO_LAUNCH, 178 DO_CHANGE_SPEED (param1 0 to 3, param2
+/// m/s, -1 as it is, -2 the default), 300 MISSION_START (param1: the first step; arms as well), 224
+/// DO_SET_MISSION_CURRENT.
 struct Px4Command {
   std::uint16_t id = 0;
   std::array<float, 7> param{};
@@ -54,6 +57,12 @@ class Px4 {
   Ack command(const Px4Command& command);
   Ack arm(bool armed, bool force = false);
   Ack set_mode(NavState mode);
+  /// Flies there in HOLD and stays; NaN: the axis, or the heading towards the place, as it is.
+  Ack reposition(const Vec3& goal_world_m, double yaw_rad, double speed_m_s);
+  /// In place of the one before, from its first step on; none clears it.
+  void set_mission(std::vector<MissionStep> steps);
+  /// False for a step that there is not.
+  bool set_current_step(std::size_t step);
   /// A setpoint of the offboard stream (world ENU). A valid one refreshes the heartbeat in any
   /// mode, but only those that come in OFFBOARD are flown: until the first of them the vehicle
   /// stops and holds. An invalid one (Setpoint) does so too, with a warning.
@@ -69,9 +78,14 @@ class Px4 {
   NavState intention() const { return intention_; }  // what was asked for
   bool is_armed() const { return is_armed_; }
   bool is_landed() const { return land_.is_landed; }
+  bool is_taking_off() const;  // in the air; so is the next
+  bool is_landing() const;
   bool is_in_failsafe() const { return is_in_failsafe_; }
   /// Where it was armed last; before that where it stood.
   const Eigen::Vector2d& home_world_m() const { return home_world_m_; }
+  const UploadedMission& mission() const { return mission_; }
+  /// Steps done since the last call.
+  std::vector<std::uint16_t> take_reached() { return std::exchange(mission_.reached, {}); }
   const CommanderParameters& commander() const { return parameters_.commander; }
   /// From now on, as PX4 takes a changed parameter. A mode that runs keeps what it began with.
   void set_commander(const CommanderParameters& commander) { parameters_.commander = commander; }
@@ -82,6 +96,10 @@ class Px4 {
 
  private:
   double offboard_silence_s() const;
+  bool can_run_now(NavState mode) const;
+  Ack change_speed(double kind, double speed_m_s);
+  Ack start_mission(double first_step);
+  void lead();
   void say(int severity, std::string text);
   Ack reject(std::string text);
   void disarm();
@@ -112,6 +130,7 @@ class Px4 {
 
   double takeoff_altitude_m_ = 0.0;
   AutoFlight auto_;
+  UploadedMission mission_;
   Takeoff takeoff_;
   LandDetector land_ = kOnGround;
   Setpoint setpoint_;  // what is flown now

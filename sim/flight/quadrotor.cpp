@@ -64,6 +64,7 @@ Quadrotor::Quadrotor(const VehicleConfig& config, const World& world, const Begi
       estimate_(estimator_.step(beginning.state)),
       px4_(config.autopilot, config.airframe, estimate_, how) {
   px4_.trim(beginning.trim.a_world_m_s2);
+  specific_force_body_m_s2_ = {0.0, 0.0, config.airframe.gravity_m_s2};
 }
 
 bool Quadrotor::has_collided() const {
@@ -81,7 +82,7 @@ double Quadrotor::power_w() const {
 }
 
 void Quadrotor::step() {
-  const VehicleState& truth = vehicle_.state();
+  const VehicleState truth = vehicle_.state();
   wind_world_m_s_ = wind_.step(truth.T_world_body.translation(), truth.v_world_m_s);
   bool is_first = true;
   vehicle_.step(
@@ -90,7 +91,11 @@ void Quadrotor::step() {
                                               : px4_.rate_step(omega_body_rad_s);
       },
       wind_world_m_s_);
-  estimate_ = estimator_.step(vehicle_.state());
+  const VehicleState& after = vehicle_.state();
+  Vec3 felt_world_m_s2 = (after.v_world_m_s - truth.v_world_m_s) / kTick_s;
+  felt_world_m_s2.z() += config_.airframe.gravity_m_s2;
+  specific_force_body_m_s2_ = after.T_world_body.linear().transpose() * felt_world_m_s2;
+  estimate_ = estimator_.step(after);
   energy_j_ += kTick_s * power_w();
 }
 

@@ -28,6 +28,8 @@ class Quadrotor final : public Flight {
   double energy_wh() const override { return energy_j_ / kJoulesPerWattHour; }
   /// Electrical power at the last tick.
   double power_w() const;
+  /// What an accelerometer at the centre of mass felt in the last tick.
+  const Vec3& specific_force_body_m_s2() const { return specific_force_body_m_s2_; }
 
   Px4& px4() { return px4_; }
   const Px4& px4() const { return px4_; }
@@ -48,6 +50,7 @@ class Quadrotor final : public Flight {
   VehicleState estimate_;
   Px4 px4_;
   double energy_j_ = 0.0;
+  Vec3 specific_force_body_m_s2_;
 };
 
 }  // namespace gnbv

@@ -242,6 +242,7 @@ enum class VehicleKind { quadrotor, ideal };
 struct VehicleConfig {
   std::string preset = "iris";  // whose parameters are the defaults of all below
   VehicleKind kind = VehicleKind::quadrotor;
+  int system_id = 1;  // MAV_SYS_ID: by which clients of `gnbv fly` tell vehicles apart
   EstimateConfig estimate;
   AirframeParameters airframe;
   AutopilotParameters autopilot;

@@ -1,5 +1,5 @@
-// The one border between our frames (world ENU, body FLU) and MAVLink's (NED, FRD). The local
-// origin is the scenario's: north is world y, east world x, down counts from z = 0.
+// The one border between our frames (world ENU, body FLU) and MAVLink's (NED, FRD): north is world
+// y, east world x. The local origin is given; the globe's place of the world's never changes.
 #pragma once
 
 #include <string>
@@ -12,6 +12,20 @@ namespace gnbv::mavlink {
 
 /// ENU to NED; its own inverse.
 inline Vec3 swap_enu_ned(const Vec3& v) { return {v.y(), v.x(), -v.z()}; }
+/// From the local frame at that origin to the world, and back.
+inline Vec3 world_of_local(const Vec3& p_ned_m, const Vec3& origin_world_m) {
+  return origin_world_m + swap_enu_ned(p_ned_m);
+}
+inline Vec3 local_of_world(const Vec3& p_world_m, const Vec3& origin_world_m) {
+  return swap_enu_ned(p_world_m - origin_world_m);
+}
+
+/// On the globe. The world's origin lies where PX4's own simulations start, at mean sea level. On a
+/// sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
+GlobalPlace place_of(const Vec3& p_world_m);
+/// The reverse, of degrees and metres; NaN stays NaN.
+Vec3 world_of_place(double lat_deg, double lon_deg, double alt_m);
+
 /// FLU to FRD; its own inverse.
 inline Vec3 swap_flu_frd(const Vec3& v) { return {v.x(), -v.y(), -v.z()}; }
 /// Heading from east counter-clockwise to heading from north clockwise, in (-pi, pi]; its own
@@ -33,6 +47,19 @@ struct Refusal {
 /// and has no position. Refused: other frames, the force bit, a world axis beyond 1e6 m, 1e3 m/s or
 /// 1e3 m/s^2, an infinite yaw or yaw rate, nothing left to control.
 std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& message,
-                                            double yaw_world_rad);
+                                            double yaw_world_rad,
+                                            const Vec3& origin_world_m = Vec3::Zero());
+/// The same with a place on the globe (frames 0, 3, 5, 6; heights are all above the ground's z = 0,
+/// which is sea level and home).
+std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& message);
+
+/// Each axis at most. A greater number is garbage, and would wind up the controller's integrals.
+constexpr double kPositionMax_m = 1e6;
+inline bool is_in_bounds(const Vec3& p_m) { return !(p_m.array().abs() > kPositionMax_m).any(); }
+
+/// MAV_FRAME: on the globe above the sea or above home, in floats or integers.
+constexpr bool is_global(std::uint8_t frame) {
+  return frame == 0 || frame == 3 || frame == 5 || frame == 6;
+}
 
 }  // namespace gnbv::mavlink

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sim/mavlink/border.hpp"
@@ -17,6 +17,7 @@ constexpr double kRefusalRepeat_s = 1.0;
 
 enum MavCommand : std::uint16_t {
   kDoSetMode = 176,
+  kDoReposition = 192,
   // about messages, not about flight
   kGetMessageInterval = 510,
   kSetMessageInterval = 511,
@@ -25,11 +26,6 @@ enum MavCommand : std::uint16_t {
   kRequestAutopilotCapabilities = 520
 };
 
-// MAV_MISSION_RESULT
-constexpr std::uint8_t kMissionAccepted = 0;
-constexpr std::uint8_t kMissionUnsupported = 3;
-constexpr std::uint8_t kMissionInvalidSequence = 13;
-
 /// A message's id as a parameter carries it; one that no message has when it is none.
 std::uint32_t message_id_of(float param) {
   constexpr float kIdMax = 0xffffff;
@@ -37,21 +33,6 @@ std::uint32_t message_id_of(float param) {
 }
 
 std::string text_of(const ParameterId& id) { return {id.begin(), std::ranges::find(id, '\0')}; }
-
-/// MAV_PARAM_TYPE: INT32 or REAL32.
-std::uint8_t type_of(const Px4Parameter& parameter) { return parameter.value == nullptr ? 6 : 9; }
-
-ParamValue value_of(const CommanderParameters& commander, const Px4Parameter& parameter) {
-  const double value = px4_value(commander, parameter);
-  ParamValue message{.param_value = parameter.value == nullptr
-                                        ? std::bit_cast<float>(static_cast<std::int32_t>(value))
-                                        : static_cast<float>(value),
-                     .param_count = static_cast<std::uint16_t>(kPx4Parameters.size()),
-                     .param_index = static_cast<std::uint16_t>(&parameter - kPx4Parameters.data()),
-                     .param_type = type_of(parameter)};
-  std::ranges::copy(parameter.name, message.param_id.begin());
-  return message;
-}
 
 }  // namespace
 
@@ -64,14 +45,24 @@ struct Endpoint::Handler {
 
   void reply(const auto& message) const { endpoint.send(packed(message)); }
   /// Short enough for one STATUSTEXT.
-  void refuse(const std::string& text) const {
-    reply(status_texts_of({.severity = kSeverityCritical, .text = text}, 1).front());
+  void tell(int severity, const std::string& text) const {
+    reply(status_texts_of({.severity = severity, .text = text}, 1).front());
   }
 
-  void operator()(const CommandLong& asked) const { obey({asked.command, asked.param}); }
+  void operator()(const CommandLong& asked) const {
+    if (asked.command != kDoReposition) return obey({asked.command, asked.param});
+    acknowledge(asked.command,
+                reposition({asked.param[0], asked.param[1], asked.param[3]},
+                           world_of_place(asked.param[4], asked.param[5], asked.param[6])));
+  }
 
   void operator()(const CommandInt& asked) const {
     const auto& p = asked.param;
+    if (asked.command == kDoReposition) {
+      const auto place = place_in(asked);
+      return acknowledge(asked.command,
+                         place ? reposition({p[0], p[1], p[3]}, *place) : Ack::denied);
+    }
     const float none = std::nanf("");
     obey({asked.command, {p[0], p[1], p[2], p[3], none, none, asked.z}});
   }
@@ -82,10 +73,37 @@ struct Endpoint::Handler {
            static_cast<float>(asked.custom_mode >> 24)}});
   }
 
-  void obey(const Px4Command& command) const {
+  /// World ENU; nothing in other frames than those of border.hpp and LOCAL_NED.
+  std::optional<Vec3> place_in(const CommandInt& asked) const {
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+    const auto number = [](std::int32_t value, double unit) {
+      return value == kNone ? kNotControlled : unit * value;
+    };
+    if (is_global(asked.frame)) {
+      return world_of_place(number(asked.x, 1e-7), number(asked.y, 1e-7), asked.z);
+    }
+    if (asked.frame != 1) return std::nullopt;
+    return world_of_local({number(asked.x, 1e-4), number(asked.y, 1e-4), asked.z},
+                          endpoint.aboard_.origin_world_m);
+  }
+
+  struct Manner {
+    float speed_m_s, flags, yaw_ned_rad;
+  };
+  /// As PX4, only with the flag that changes the mode.
+  Ack reposition(const Manner& manner, const Vec3& goal_world_m) const {
+    if (manner.flags != 1.0F) return Ack::unsupported;
+    if (!is_in_bounds(goal_world_m) || std::isinf(manner.yaw_ned_rad)) return Ack::denied;
+    return vehicle.px4().reposition(
+        goal_world_m, swap_yaw_enu_ned(static_cast<double>(manner.yaw_ned_rad)), manner.speed_m_s);
+  }
+
+  void obey(const Px4Command& command) const { acknowledge(command.id, result_of(command)); }
+
+  void acknowledge(std::uint16_t command, Ack result) const {
     ++endpoint.counts_.commands;
-    reply(CommandAck{.command = command.id,
-                     .result = static_cast<std::uint8_t>(result_of(command)),
+    reply(CommandAck{.command = command,
+                     .result = static_cast<std::uint8_t>(result),
                      .target_system = frame.system_id,
                      .target_component = frame.component_id});
   }
@@ -118,7 +136,13 @@ struct Endpoint::Handler {
   }
 
   void operator()(const SetPositionTargetLocalNed& asked) const {
-    const auto read = setpoint_of(asked, yaw_of(vehicle.estimate().T_world_body));
+    fly(setpoint_of(asked, yaw_of(vehicle.estimate().T_world_body),
+                    endpoint.aboard_.origin_world_m));
+  }
+
+  void operator()(const SetPositionTargetGlobalInt& asked) const { fly(setpoint_of(asked)); }
+
+  void fly(const std::variant<Setpoint, Refusal>& read) const {
     if (const auto* const refusal = std::get_if<Refusal>(&read)) {
       endpoint.refuse_setpoint(refusal->reason, now_s);
       return;
@@ -131,68 +155,76 @@ struct Endpoint::Handler {
     endpoint.refuse_setpoint("setpoint of attitude not supported", now_s);
   }
 
-  void operator()(const SetPositionTargetGlobalInt&) const {
-    endpoint.refuse_setpoint("global setpoint not supported", now_s);
+  ParamValue value_of(std::size_t number) const {
+    return mavlink::value_of(endpoint.aboard_, vehicle.px4().commander(), number);
   }
 
   void operator()(const ParamRequestList&) const {
-    for (const Px4Parameter& parameter : kPx4Parameters) {
-      reply(value_of(vehicle.px4().commander(), parameter));
-    }
+    for (std::size_t i = 0; i < parameter_count(); ++i) reply(value_of(i));
+  }
+
+  /// PX4 only tells of an unknown name, as clients look for those of other versions.
+  void tell_of_unknown(const std::string& name) const {
+    tell(kSeverityInfo, fmt::format("no parameter {}", name));
   }
 
   void operator()(const ParamRequestRead& asked) const {
     const auto index = static_cast<std::size_t>(asked.param_index);
-    const Px4Parameter* const parameter = asked.param_index < 0
-                                              ? find_px4_parameter(text_of(asked.param_id))
-                                          : index < kPx4Parameters.size() ? &kPx4Parameters[index]
-                                                                          : nullptr;
-    if (parameter != nullptr) return reply(value_of(vehicle.px4().commander(), *parameter));
-    refuse(fmt::format("no parameter {}",
-                       asked.param_index >= 0 ? std::to_string(index) : text_of(asked.param_id)));
+    std::optional<std::size_t> number = index;
+    if (asked.param_index < 0) number = find_parameter(text_of(asked.param_id));
+    if (number && *number < parameter_count()) return reply(value_of(*number));
+    tell_of_unknown(asked.param_index >= 0 ? std::to_string(index) : text_of(asked.param_id));
   }
 
   void operator()(const ParamSet& asked) const {
     const std::string name = text_of(asked.param_id);
-    const Px4Parameter* const parameter = find_px4_parameter(name);
-    if (parameter == nullptr) return refuse(fmt::format("no parameter {}", name));
+    const std::optional<std::size_t> number = find_parameter(name);
+    if (!number) return tell_of_unknown(name);
     CommanderParameters commander = vehicle.px4().commander();
-    const double value = parameter->value == nullptr
-                             ? std::bit_cast<std::int32_t>(asked.param_value)
-                             : static_cast<double>(asked.param_value);
-    if (asked.param_type == type_of(*parameter) && set_px4_value(commander, *parameter, value)) {
+    if (set_parameter(endpoint.aboard_, commander, *number, asked)) {
       vehicle.px4().set_commander(commander);
     } else {
-      refuse(fmt::format("parameter {} not set", name));
+      tell(kSeverityCritical, fmt::format("parameter {} not set", name));
     }
-    reply(value_of(vehicle.px4().commander(), *parameter));
+    reply(value_of(*number));
   }
 
-  void acknowledge_mission(std::uint8_t result, std::uint8_t mission_type) const {
-    reply(MissionAck{frame.system_id, frame.component_id, result, mission_type});
+  template <typename Message>
+  requires requires(MissionExchange exchange, const Message& message,
+                    const MissionExchange::Context& context) {
+    exchange.receive(message, context);
+  }
+  void operator()(const Message& message) const {
+    const MissionExchange::Context context{endpoint.aboard_, vehicle.px4(), frame.system_id,
+                                           frame.component_id, now_s};
+    for (Frame& answer : endpoint.missions_.receive(message, context)) {
+      endpoint.send(std::move(answer));
+    }
   }
 
-  void operator()(const MissionRequestList& asked) const {
-    reply(MissionCount{.target_system = frame.system_id,
-                       .target_component = frame.component_id,
-                       .mission_type = asked.mission_type});
+  /// The vehicle asks for integers; the other ways round are as good.
+  void operator()(const MissionRequest& asked) const {
+    (*this)(MissionRequestInt{asked.number, asked.target_system, asked.target_component,
+                              asked.mission_type});
   }
 
-  void operator()(const MissionCount& asked) const {
-    acknowledge_mission(asked.number == 0 ? kMissionAccepted : kMissionUnsupported,
-                        asked.mission_type);
+  void operator()(const MissionItem& item) const {
+    const auto e7 = [](float deg) {
+      return static_cast<std::int32_t>(
+          std::lround(1e7 * std::clamp(static_cast<double>(deg), -200.0, 200.0)));
+    };
+    (*this)(MissionItemInt{item.param, e7(item.x), e7(item.y), item.z, item.seq, item.command,
+                           item.target_system, item.target_component, item.frame, item.current,
+                           item.autocontinue, item.mission_type});
   }
 
-  void operator()(const MissionClearAll& asked) const {
-    acknowledge_mission(kMissionAccepted, asked.mission_type);
+  void operator()(const MissionSetCurrent& asked) const {
+    if (vehicle.px4().set_current_step(asked.seq)) {
+      endpoint.send(*said_of(MissionCurrent::kInfo.id, endpoint.report_of(vehicle)));
+    } else {
+      tell(kSeverityWarning, fmt::format("no mission item {}", asked.seq));
+    }
   }
-
-  template <std::uint32_t id, std::uint8_t crc_extra>
-  void operator()(const MissionNumber<id, crc_extra>& requested) const {
-    acknowledge_mission(kMissionInvalidSequence, requested.mission_type);
-  }
-
-  void operator()(const MissionAck&) const {}
 
   void operator()(const Timesync& asked) const {
     if (asked.tc1_ns != 0) return;  // an answer, and we never ask
@@ -215,11 +247,12 @@ void Endpoint::receive(std::span<const std::uint8_t> datagram, const Address& fr
   for (const Frame& frame : frames) {
     if (frame.message_id == Heartbeat::kInfo.id) continue;  // the link has taken note of it
     const Handler handler{*this, frame, now_s, vehicle};
-    if (handle_if_order(frame, handler)) continue;
+    if (handle_if_order(frame, aboard_.system_id, handler)) continue;
     const bool is_question =
         handle_if_one_of<ParamRequestList, ParamRequestRead, ParamSet, MissionRequestList,
                          MissionCount, MissionClearAll, MissionRequest, MissionRequestInt,
-                         MissionAck, Timesync, Ping>(frame, handler);
+                         MissionItemInt, MissionItem, MissionSetCurrent, MissionAck, Timesync,
+                         Ping>(frame, aboard_.system_id, handler);
     ++(is_question ? counts_.questions : counts_.ignored);
   }
 }
@@ -229,7 +262,10 @@ VehicleReport Endpoint::report_of(const Quadrotor& vehicle) const {
           .time_boot_ms = static_cast<std::uint32_t>(vehicle.tick() * (1000 / kTicksPerSecond)),
           .px4 = &vehicle.px4(),
           .energy_wh = vehicle.energy_wh(),
-          .battery_wh = battery_wh_};
+          .battery_wh = aboard_.battery_wh,
+          .power_w = vehicle.power_w(),
+          .origin_world_m = aboard_.origin_world_m,
+          .specific_force_body_m_s2 = vehicle.specific_force_body_m_s2()};
 }
 
 void Endpoint::refuse_setpoint(const std::string& reason, double now_s) {
@@ -251,15 +287,31 @@ void Endpoint::send(Frame frame) {
     return;
   }
   frame.sequence = sequence_++;
-  frame.system_id = kSystem;
+  frame.system_id = aboard_.system_id;
   frame.component_id = kComponent;
   outgoing_.push_back(write_frame(frame));
 }
 
-std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s, Quadrotor& vehicle) {
-  const std::vector<gnbv::StatusText> said = vehicle.px4().take_messages();
+News take_news(Aboard& aboard, Quadrotor& vehicle) {
+  Px4& px4 = vehicle.px4();
+  News news{px4.take_messages(), px4.take_reached()};
+  if (px4.is_armed() && !aboard.was_armed) {
+    const Vec3& origin_m = aboard.origin_world_m;
+    news.texts.push_back({.severity = kSeverityInfo,
+                          .text = fmt::format("Local NED counts from world x {:.2f} y {:.2f}",
+                                              origin_m.x(), origin_m.y())});
+  }
+  aboard.was_armed = px4.is_armed();
+  return news;
+}
+
+std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s,
+                                                               const Quadrotor& vehicle,
+                                                               const News& news) {
   if (!client().has_value()) return {};
-  for (const gnbv::StatusText& text : said) say(text);
+  for (const gnbv::StatusText& text : news.texts) say(text);
+  for (const std::uint16_t item : news.reached) send(packed(MissionItemReached{item}));
+  for (Frame& frame : missions_.remind(now_s)) send(std::move(frame));
   const VehicleReport report = report_of(vehicle);
   for (const std::uint32_t id : streams_.take_due(now_s)) send(*said_of(id, report));
   return std::exchange(outgoing_, {});

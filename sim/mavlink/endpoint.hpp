@@ -1,5 +1,5 @@
 // The vehicle's end of a MAVLink connection, without the network: datagrams in, frames out. The
-// vehicle is system 1, component 1, and speaks MAVLink 2.
+// vehicle is component 1 of its system, and speaks MAVLink 2.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "sim/flight/quadrotor.hpp"
+#include "sim/mavlink/aboard.hpp"
 #include "sim/mavlink/link.hpp"
+#include "sim/mavlink/mission_exchange.hpp"
 #include "sim/mavlink/telemetry.hpp"
 
 namespace gnbv::mavlink {
@@ -29,18 +31,27 @@ struct EndpointCounts {
 /// whatever a client asks, the answers take a bounded time.
 constexpr std::size_t kOutgoingMax = 256;
 
+/// What the vehicle says of its own accord, to every client.
+struct News {
+  std::vector<gnbv::StatusText> texts;
+  std::vector<std::uint16_t> reached;  // items of the mission
+};
+/// What there is since the last call; with the news of arming comes where local NED counts from.
+News take_news(Aboard& aboard, Quadrotor& vehicle);
+
+/// One link of the vehicle to a client; several share what is aboard.
 class Endpoint {
  public:
-  /// `battery_wh` as PowerParameters has it. A partner is spoken to before it says anything, and is
-  /// the only one who is heard.
-  explicit Endpoint(double battery_wh, std::optional<Address> partner = std::nullopt)
-      : battery_wh_(battery_wh), link_(partner) {}
+  /// A partner is spoken to before it says anything, and is the only one who is heard.
+  explicit Endpoint(Aboard& aboard, std::optional<Address> partner = std::nullopt)
+      : aboard_(aboard), link_(partner, aboard.system_id) {}
 
-  /// Does what the client asks for. COMMAND_LONG, COMMAND_INT (no command known here has its x and
-  /// y) and SET_MODE are each acknowledged. SET_POSITION_TARGET_LOCAL_NED is flown or refused. What
-  /// a client asks at connection (QGroundControl waits for each) is answered: parameters, by PX4's
-  /// names, bounded, always with the value that holds; the mission protocol, of which there is none
-  /// (a count of 0, uploads refused); TIMESYNC and PING. `now_s` is wall time from any origin.
+  /// Does what the client asks for. COMMAND_LONG, COMMAND_INT and SET_MODE are each acknowledged;
+  /// DO_REPOSITION has a place on the globe, or a local one in COMMAND_INT's frame 1. Setpoints of
+  /// position, local and global, are flown or refused. What a client asks at connection
+  /// (QGroundControl waits for each) is answered: parameters, by PX4's names, bounded, always with
+  /// the value that holds; the mission protocol; TIMESYNC and PING. `now_s` is wall time from any
+  /// origin.
   void receive(std::span<const std::uint8_t> datagram, const Address& from, double now_s,
                Quadrotor& vehicle);
   void count_oversized_datagram() { link_.count_oversized_datagram(); }
@@ -48,7 +59,8 @@ class Endpoint {
   /// The frames to send to client(), each a datagram: acknowledgements, texts, and the telemetry
   /// that is due by wall time. Empty without a client. State and position are the autopilot's
   /// estimate; times are simulation time.
-  std::vector<std::vector<std::uint8_t>> take_outgoing(double now_s, Quadrotor& vehicle);
+  std::vector<std::vector<std::uint8_t>> take_outgoing(double now_s, const Quadrotor& vehicle,
+                                                       const News& news);
   /// Takes note that one of them went out.
   void count_sent() { ++counts_.sent; }
 
@@ -64,7 +76,8 @@ class Endpoint {
   void say(const gnbv::StatusText& text);
   void send(Frame frame);
 
-  double battery_wh_;
+  Aboard& aboard_;
+  MissionExchange missions_;
   Link link_;
   EndpointCounts counts_;
   std::vector<std::vector<std::uint8_t>> outgoing_;

@@ -19,11 +19,12 @@ constexpr std::array<MessageInfo, sizeof...(Messages)> infos_of() {
 constexpr auto kMessages =
     infos_of<Heartbeat, SysStatus, Ping, SetMode, ParamRequestRead, ParamRequestList, ParamValue,
              ParamSet, GpsRawInt, Attitude, AttitudeQuaternion, LocalPositionNed, GlobalPositionInt,
-             MissionRequest, MissionRequestList, MissionCount, MissionClearAll, MissionAck,
-             GpsGlobalOrigin, MissionRequestInt, VfrHud, CommandInt, CommandLong, CommandAck,
-             SetAttitudeTarget, SetPositionTargetLocalNed, SetPositionTargetGlobalInt, Timesync,
-             BatteryStatus, AutopilotVersion, HomePosition, MessageInterval, ExtendedSysState,
-             StatusText, ProtocolVersion>();
+             MissionItem, MissionRequest, MissionSetCurrent, MissionCurrent, MissionRequestList,
+             MissionCount, MissionClearAll, MissionItemReached, MissionAck, GpsGlobalOrigin,
+             MissionRequestInt, MissionItemInt, VfrHud, CommandInt, CommandLong, CommandAck,
+             SetAttitudeTarget, SetPositionTargetLocalNed, SetPositionTargetGlobalInt, HighresImu,
+             Timesync, BatteryStatus, AutopilotVersion, HomePosition, MessageInterval,
+             ExtendedSysState, StatusText, ProtocolVersion, Odometry>();
 
 /// nullptr for a message that is not one of ours.
 const MessageInfo* find_message(std::uint32_t id) {

@@ -15,8 +15,8 @@ std::vector<Frame> Link::receive(std::span<const std::uint8_t> datagram, const A
   }
   std::vector<Frame> frames = read_frames(datagram, counts_.frames);
   if (frames.empty()) return {};
-  const bool asks = std::ranges::any_of(frames, [](const Frame& frame) {
-    return handle_if_order(frame, [](const auto& /*order*/) {});
+  const bool asks = std::ranges::any_of(frames, [this](const Frame& frame) {
+    return handle_if_order(frame, system_id_, [](const auto& /*order*/) {});
   });
   if (is_foreign && !asks && now_s - heard_s_ <= kClientSilence_s) {
     ++counts_.foreign_datagrams;

@@ -27,24 +27,23 @@ struct LinkCounts {
 };
 
 /// Whom commands and setpoints are for. 0 is everybody.
-constexpr std::uint8_t kSystem = 1;
 constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
 
 template <typename Message>
-bool is_for_us(const Message& message) {
+bool is_for_us(const Message& message, std::uint8_t system_id) {
   if constexpr (requires { message.target_component; }) {
     if (message.target_component != kComponent && message.target_component != 0) return false;
   }
-  return message.target_system == kSystem || message.target_system == 0;
+  return message.target_system == system_id || message.target_system == 0;
 }
 
 /// Calls `handle` with the frame's message if it is one of these and for us; whether it did.
 template <typename... Messages>
-bool handle_if_one_of(const Frame& frame, const auto& handle) {
+bool handle_if_one_of(const Frame& frame, std::uint8_t system_id, const auto& handle) {
   const auto is_it = [&]<typename Message>() {
     if (frame.message_id != Message::kInfo.id) return false;
     const auto message = message_of<Message>(frame.payload);
-    if (!is_for_us(message)) return false;
+    if (!is_for_us(message, system_id)) return false;
     handle(message);
     return true;
   };
@@ -52,9 +51,9 @@ bool handle_if_one_of(const Frame& frame, const auto& handle) {
 }
 
 /// The same of an order: a command, a mode or a setpoint.
-bool handle_if_order(const Frame& frame, const auto& handle) {
+bool handle_if_order(const Frame& frame, std::uint8_t system_id, const auto& handle) {
   return handle_if_one_of<SetMode, CommandLong, CommandInt, SetPositionTargetLocalNed,
-                          SetPositionTargetGlobalInt, SetAttitudeTarget>(frame, handle);
+                          SetPositionTargetGlobalInt, SetAttitudeTarget>(frame, system_id, handle);
 }
 
 /// The first address from which a good frame comes is the client's. While the vehicle is armed it
@@ -66,8 +65,8 @@ class Link {
  public:
   static constexpr double kClientSilence_s = 5.0;
 
-  explicit Link(std::optional<Address> partner = std::nullopt)
-      : client_(partner), is_for_good_(partner.has_value()) {}
+  explicit Link(std::optional<Address> partner = std::nullopt, std::uint8_t system_id = 1)
+      : client_(partner), is_for_good_(partner.has_value()), system_id_(system_id) {}
 
   /// The datagram's frames that are good and the client's. `now_s` is any clock that never goes
   /// back.
@@ -85,6 +84,7 @@ class Link {
  private:
   std::optional<Address> client_;
   bool is_for_good_ = false;
+  std::uint8_t system_id_ = 1;
   double heard_s_ = 0.0;  // the client's last good frame
   double asked_s_ = 0.0;  // its last order
   LinkCounts counts_;

@@ -134,6 +134,48 @@ struct GpsGlobalOrigin {
   GlobalPlace place{};
 };
 
+/// x and y: 1e-7 deg, or 1e-4 m.
+struct MissionItemInt {
+  static constexpr MessageInfo kInfo = {73, 38, 37, 38};
+  std::array<float, 4> param{};
+  std::int32_t x = 0, y = 0;
+  float z = 0;
+  std::uint16_t seq = 0, command = 0;  // MAV_CMD
+  std::uint8_t target_system = 0, target_component = 0;
+  std::uint8_t frame = 0, current = 0, autocontinue = 0;  // MAV_FRAME
+  std::uint8_t mission_type = 0;
+};
+
+/// The same of old clients, x and y in degrees.
+struct MissionItem {
+  static constexpr MessageInfo kInfo = {39, 254, 37, 38};
+  std::array<float, 4> param{};
+  float x = 0, y = 0, z = 0;
+  std::uint16_t seq = 0, command = 0;
+  std::uint8_t target_system = 0, target_component = 0;
+  std::uint8_t frame = 0, current = 0, autocontinue = 0;
+  std::uint8_t mission_type = 0;
+};
+
+struct MissionSetCurrent {
+  static constexpr MessageInfo kInfo = {41, 28, 4, 4};
+  std::uint16_t seq = 0;
+  std::uint8_t target_system = 0, target_component = 0;
+};
+
+struct MissionCurrent {
+  static constexpr MessageInfo kInfo = {42, 28, 2, 6};
+  std::uint16_t seq = 0;
+  std::uint16_t total = 0;  // 65535: there is no mission
+  std::uint8_t state = 0;   // MISSION_STATE
+  std::uint8_t mode = 0;    // 1 in mission mode, 2 not
+};
+
+struct MissionItemReached {
+  static constexpr MessageInfo kInfo = {46, 11, 2, 2};
+  std::uint16_t seq = 0;
+};
+
 /// `number` is an item's, or how many items there are. MAV_MISSION_TYPE: mission, fence, rally.
 template <std::uint32_t id, std::uint8_t crc_extra>
 struct MissionNumber {
@@ -218,13 +260,28 @@ struct SetPositionTargetLocalNed {
   std::uint8_t coordinate_frame = 0;  // MAV_FRAME
 };
 
-/// Refused likewise: the vehicle's places are local.
 struct SetPositionTargetGlobalInt {
   static constexpr MessageInfo kInfo = {86, 5, 53, 53};
-  std::array<float, 12> of_no_use{};
+  std::uint32_t time_boot_ms = 0;
+  std::int32_t lat_deg_e7 = 0, lon_deg_e7 = 0;
+  float alt_m = 0;
+  std::array<float, 3> v_m_s{};
+  std::array<float, 3> a_m_s2{};
+  float yaw_rad = 0;
+  float yaw_rate_rad_s = 0;
   std::uint16_t type_mask = 0;
   std::uint8_t target_system = 0, target_component = 0;
   std::uint8_t coordinate_frame = 0;
+};
+
+/// The body's specific force and turning, what a magnetometer and a barometer say.
+struct HighresImu {
+  static constexpr MessageInfo kInfo = {105, 93, 62, 63};
+  std::uint64_t time_us = 0;
+  std::array<float, 3> a_frd_m_s2{}, omega_frd_rad_s{}, field_frd_gauss{};
+  float pressure_hpa = 0, pressure_difference_hpa = 0, pressure_alt_m = 0, temperature_deg_c = 0;
+  std::uint16_t fields_updated = 0x1fff;  // HIGHRES_IMU_UPDATED_FLAGS
+  std::uint8_t id = 0;
 };
 
 /// A tc1 of 0 asks; the answer has the time there, and the same ts1.
@@ -274,7 +331,22 @@ struct MessageInterval {
 struct ExtendedSysState {
   static constexpr MessageInfo kInfo = {245, 130, 2, 2};
   std::uint8_t vtol_state = 0;
-  std::uint8_t landed_state = 0;  // MAV_LANDED_STATE: 1 on the ground, 2 in the air
+  // MAV_LANDED_STATE: 1 on the ground, 2 in the air, 3 taking off, 4 landing
+  std::uint8_t landed_state = 0;
+};
+
+/// Pose in `frame_id`, speeds in `child_frame_id`; a covariance that begins with NaN is unknown.
+struct [[gnu::packed]] Odometry {
+  static constexpr MessageInfo kInfo = {331, 91, 230, 233};
+  std::uint64_t time_us = 0;
+  std::array<float, 3> p_m{};
+  std::array<float, 4> q{};
+  std::array<float, 3> v_m_s{}, omega_rad_s{};
+  std::array<float, 21> pose_covariance = {std::numeric_limits<float>::quiet_NaN()};
+  std::array<float, 21> velocity_covariance = {std::numeric_limits<float>::quiet_NaN()};
+  std::uint8_t frame_id = 1, child_frame_id = 12;      // MAV_FRAME: LOCAL_NED, BODY_FRD
+  std::uint8_t reset_counter = 0, estimator_type = 8;  // MAV_ESTIMATOR_TYPE_AUTOPILOT
+  std::int8_t quality = 0;
 };
 
 /// Text without a NUL when it fills the field. Parts of a longer text share an id and count chunks.

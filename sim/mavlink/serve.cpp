@@ -12,9 +12,11 @@ namespace {
 /// Reading ends after this part of a turn, so that a flood cannot stop the simulation.
 constexpr double kHear_s = 0.3 * kTurn_s;
 
-void hear(mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket, Quadrotor& vehicle,
-          double now_s) {
-  for (const Stopwatch watch; watch.elapsed_s() < kHear_s;) {
+using Stations = std::span<const std::unique_ptr<Station>>;
+
+void hear(Station& station, Quadrotor& vehicle, double now_s, double limit_s) {
+  auto& [endpoint, socket] = station;
+  for (const Stopwatch watch; watch.elapsed_s() < limit_s;) {
     const auto datagram = socket.receive();
     if (!datagram.has_value()) return;
     if (datagram->is_oversized) {
@@ -25,10 +27,13 @@ void hear(mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket, Quadrotor& ve
   }
 }
 
-void speak(mavlink::Endpoint& endpoint, const mavlink::UdpSocket& socket, Quadrotor& vehicle,
-           double now_s) {
-  for (const auto& frame : endpoint.take_outgoing(now_s, vehicle)) {
-    if (socket.send(frame, *endpoint.client())) endpoint.count_sent();
+void speak(mavlink::Aboard& aboard, Stations stations, Quadrotor& vehicle, double now_s) {
+  const mavlink::News news = mavlink::take_news(aboard, vehicle);
+  for (const auto& station : stations) {
+    auto& [endpoint, socket] = *station;
+    for (const auto& frame : endpoint.take_outgoing(now_s, vehicle, news)) {
+      if (socket.send(frame, *endpoint.client())) endpoint.count_sent();
+    }
   }
 }
 
@@ -38,6 +43,10 @@ std::int64_t last_tick_of(double duration_s) {
 }
 
 }  // namespace
+
+Station::Station(mavlink::Aboard& aboard, const mavlink::Meeting& meeting)
+    : endpoint(aboard, meeting.speaks_first ? std::optional(meeting.address) : std::nullopt),
+      socket(mavlink::bound_for(meeting)) {}
 
 Pace::Pace(double speed)
     : ticks_per_s_(speed * static_cast<double>(kTicksPerSecond)),
@@ -59,7 +68,7 @@ bool Pace::give_up_lag(std::int64_t tick, double now_s) {
   return true;
 }
 
-ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket,
+ServeResult serve(Quadrotor& vehicle, mavlink::Aboard& aboard, Stations stations,
                   const ServeOptions& options) {
   const Stopwatch watch;
   const std::int64_t last_tick = last_tick_of(options.duration_s);
@@ -71,14 +80,17 @@ ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpS
     return std::nullopt;
   };
   while (!options.should_stop()) {
-    socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - watch.elapsed_s(), kTurn_s));
-    hear(endpoint, socket, vehicle, watch.elapsed_s());
+    // the first wakes it; the others are heard at the next tick
+    stations[0]->socket.wait(std::min(pace.due_s(vehicle.tick() + 1) - watch.elapsed_s(), kTurn_s));
+    for (const auto& station : stations) {
+      hear(*station, vehicle, watch.elapsed_s(), kHear_s / static_cast<double>(stations.size()));
+    }
     const double now_s = watch.elapsed_s();  // what was heard takes nothing of the steps' time
     const std::int64_t turn_end = pace.turn_end(vehicle.tick(), now_s);
     while (!end() && vehicle.tick() < turn_end && watch.elapsed_s() < now_s + kTurn_s) {
       vehicle.step();
     }
-    speak(endpoint, socket, vehicle, now_s);
+    speak(aboard, stations, vehicle, now_s);
     if (end()) return {*end(), watch.elapsed_s()};
     if (pace.give_up_lag(vehicle.tick(), now_s) && !has_lagged) {
       has_lagged = true;

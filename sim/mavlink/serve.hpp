@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 
 #include "sim/flight/quadrotor.hpp"
 #include "sim/mavlink/endpoint.hpp"
@@ -49,11 +51,19 @@ class Pace {
   double given_up_s_ = 0.0;  // wall time
 };
 
-/// Steps the vehicle and serves the endpoint until one of the ends. A client's messages take effect
+/// One of the links that are served: where, and to whom.
+struct Station {
+  /// Throws BadInput where that cannot be.
+  Station(mavlink::Aboard& aboard, const mavlink::Meeting& meeting);
+  mavlink::Endpoint endpoint;
+  mavlink::UdpSocket socket;
+};
+
+/// Steps the vehicle and serves the stations until one of the ends. A client's messages take effect
 /// at the next tick. After a stall at most kLagMax_s of simulated time is made up for, in turns
 /// between which the client is heard; the rest is given up, and the simulation is slower than asked
 /// for by that much. So a client is never lost because this program was late.
-ServeResult serve(Quadrotor& vehicle, mavlink::Endpoint& endpoint, mavlink::UdpSocket& socket,
-                  const ServeOptions& options);
+ServeResult serve(Quadrotor& vehicle, mavlink::Aboard& aboard,
+                  std::span<const std::unique_ptr<Station>> stations, const ServeOptions& options);
 
 }  // namespace gnbv

@@ -27,8 +27,12 @@ Heartbeat heartbeat(const VehicleReport& report) {
 }
 
 ExtendedSysState extended_sys_state(const VehicleReport& report) {
-  constexpr std::uint8_t kOnGround = 1, kInAir = 2;  // MAV_LANDED_STATE
-  return {.landed_state = report.px4->is_landed() ? kOnGround : kInAir};
+  constexpr std::uint8_t kOnGround = 1, kInAir = 2, kTakeoff = 3, kLanding = 4;  // MAV_LANDED_STATE
+  const Px4& px4 = *report.px4;
+  return {.landed_state = px4.is_landed()       ? kOnGround
+                          : px4.is_taking_off() ? kTakeoff
+                          : px4.is_landing()    ? kLanding
+                                                : kInAir};
 }
 
 /// -1: unknown.
@@ -38,9 +42,27 @@ std::int8_t battery_left_percent(const VehicleReport& report) {
   return static_cast<std::int8_t>(std::lround(100.0 * left));
 }
 
+constexpr std::size_t kCells = 4;  // as PX4's simulations have
+
+/// Of one cell, nominal: from BAT1_V_EMPTY to BAT1_V_CHARGED over the charge left.
+std::uint16_t cell_mv(const VehicleReport& report) {
+  const std::int8_t left_percent = battery_left_percent(report);
+  const double left = left_percent < 0 ? 1.0 : 0.01 * left_percent;
+  return static_cast<std::uint16_t>(std::lround(std::lerp(3600.0, 4050.0, left)));
+}
+
+std::int16_t current_ca(const VehicleReport& report) {
+  const double voltage_v = 1e-3 * static_cast<double>(kCells * cell_mv(report));
+  return static_cast<std::int16_t>(std::lround(std::min(100.0 * report.power_w / voltage_v, 32e3)));
+}
+
 BatteryStatus battery_status(const VehicleReport& report) {
   constexpr std::uint8_t kLithiumPolymer = 1;  // MAV_BATTERY_TYPE
+  std::array<std::uint16_t, 10> voltages_mv = BatteryStatus{}.voltages_mv;
+  std::fill_n(voltages_mv.begin(), kCells, cell_mv(report));
   return {.energy_consumed_hj = static_cast<std::int32_t>(std::lround(36.0 * report.energy_wh)),
+          .voltages_mv = voltages_mv,
+          .current_ca = current_ca(report),
           .type = kLithiumPolymer,
           .remaining_percent = battery_left_percent(report)};
 }
@@ -59,6 +81,8 @@ SysStatus sys_status(const VehicleReport& report) {
   return {.sensors_present = kAll,
           .sensors_enabled = kAll,
           .sensors_health = report.px4->is_in_failsafe() ? kAll & ~kPrearmCheck : kAll,
+          .voltage_battery_mv = static_cast<std::uint16_t>(kCells * cell_mv(report)),
+          .current_battery_ca = current_ca(report),
           .battery_remaining_percent = battery_left_percent(report)};
 }
 
@@ -72,36 +96,30 @@ Attitude attitude(const VehicleReport& report) {
           .omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s))};
 }
 
-AttitudeQuaternion attitude_quaternion(const VehicleReport& report) {
+/// Of the FRD body in NED.
+Eigen::Quaterniond quaternion_of(const VehicleReport& report) {
   const Vec3 angles_rad = roll_pitch_yaw_ned_frd(report.estimate.T_world_body);
-  const Eigen::Quaterniond q = Eigen::AngleAxisd(angles_rad[2], Vec3::UnitZ()) *
-                               Eigen::AngleAxisd(angles_rad[1], Vec3::UnitY()) *
-                               Eigen::AngleAxisd(angles_rad[0], Vec3::UnitX());
-  const auto [x, y, z] = as_floats(q.vec());
+  return Eigen::AngleAxisd(angles_rad[2], Vec3::UnitZ()) *
+         Eigen::AngleAxisd(angles_rad[1], Vec3::UnitY()) *
+         Eigen::AngleAxisd(angles_rad[0], Vec3::UnitX());
+}
+
+std::array<float, 4> as_floats(const Eigen::Quaterniond& q) {
+  const auto [x, y, z] = as_floats(Vec3(q.vec()));
+  return {static_cast<float>(q.w()), x, y, z};
+}
+
+AttitudeQuaternion attitude_quaternion(const VehicleReport& report) {
   return {.time_boot_ms = report.time_boot_ms,
-          .q_ned_frd = {static_cast<float>(q.w()), x, y, z},
+          .q_ned_frd = as_floats(quaternion_of(report)),
           .omega_frd_rad_s = as_floats(swap_flu_frd(report.estimate.omega_body_rad_s))};
 }
 
 LocalPositionNed local_position(const VehicleReport& report) {
   return {.time_boot_ms = report.time_boot_ms,
-          .p_ned_m = as_floats(swap_enu_ned(report.estimate.T_world_body.translation())),
+          .p_ned_m = as_floats(
+              local_of_world(report.estimate.T_world_body.translation(), report.origin_world_m)),
           .v_ned_m_s = as_floats(swap_enu_ned(report.estimate.v_world_m_s))};
-}
-
-/// On the globe. The scenario's origin lies where PX4's own simulations start, at mean sea level.
-/// On a sphere of 6371 km, as PX4 projects, in steps of 1e-7 deg (11 mm).
-GlobalPlace place_of(const Vec3& p_world_m) {
-  constexpr double kOriginLatitude_deg = 47.397742;
-  constexpr double kOriginLongitude_deg = 8.545594;
-  constexpr double kEarthRadius_m = 6371000.0;
-  const double latitude_rad = p_world_m.y() / kEarthRadius_m;
-  const double longitude_rad =
-      p_world_m.x() / (kEarthRadius_m * std::cos(deg_to_rad(kOriginLatitude_deg)));
-  const auto e7 = [](double deg) { return static_cast<std::int32_t>(std::lround(1e7 * deg)); };
-  return {e7(kOriginLatitude_deg + rad_to_deg(latitude_rad)),
-          e7(kOriginLongitude_deg + rad_to_deg(longitude_rad)),
-          static_cast<std::int32_t>(std::lround(1e3 * p_world_m.z()))};
 }
 
 double positive_deg(double angle_rad) {
@@ -169,24 +187,68 @@ VfrHud vfr_hud(const VehicleReport& report) {
 HomePosition home_position(const VehicleReport& report) {
   const Eigen::Vector2d& home_world_m = report.px4->home_world_m();
   const Vec3 p_world_m(home_world_m.x(), home_world_m.y(), 0.0);
-  return {.place = place_of(p_world_m), .p_ned_m = as_floats(swap_enu_ned(p_world_m))};
+  return {.place = place_of(p_world_m),
+          .p_ned_m = as_floats(local_of_world(p_world_m, report.origin_world_m))};
 }
 
-GpsGlobalOrigin global_origin(const VehicleReport&) { return {.place = place_of(Vec3::Zero())}; }
+GpsGlobalOrigin global_origin(const VehicleReport& report) {
+  return {.place = place_of(report.origin_world_m)};
+}
+
+Odometry odometry(const VehicleReport& report) {
+  const VehicleState& state = report.estimate;
+  return {
+      .time_us = std::uint64_t{1000} * report.time_boot_ms,
+      .p_m = as_floats(local_of_world(state.T_world_body.translation(), report.origin_world_m)),
+      .q = as_floats(quaternion_of(report)),
+      .v_m_s = as_floats(swap_flu_frd(state.T_world_body.linear().transpose() * state.v_world_m_s)),
+      .omega_rad_s = as_floats(swap_flu_frd(state.omega_body_rad_s))};
+}
+
+/// Without noise; the air of the standard atmosphere, the field where PX4's simulations start.
+HighresImu highres_imu(const VehicleReport& report) {
+  const Vec3 kField_ned_gauss(0.215, 0.012, 0.430);
+  const VehicleState& state = report.estimate;
+  const double alt_m = state.T_world_body.translation().z();
+  const Vec3 field_body = state.T_world_body.linear().transpose() * swap_enu_ned(kField_ned_gauss);
+  return {.time_us = std::uint64_t{1000} * report.time_boot_ms,
+          .a_frd_m_s2 = as_floats(swap_flu_frd(report.specific_force_body_m_s2)),
+          .omega_frd_rad_s = as_floats(swap_flu_frd(state.omega_body_rad_s)),
+          .field_frd_gauss = as_floats(swap_flu_frd(field_body)),
+          .pressure_hpa = static_cast<float>(1013.25 * std::pow(1.0 - 2.25577e-5 * alt_m, 5.25588)),
+          .pressure_alt_m = static_cast<float>(alt_m),
+          .temperature_deg_c = static_cast<float>(15.0 - 0.0065 * alt_m)};
+}
+
+MissionCurrent mission_current(const VehicleReport& report) {
+  constexpr std::uint8_t kNone = 1, kNotStarted = 2, kActive = 3, kPaused = 4, kComplete = 5;
+  const Px4& px4 = *report.px4;
+  const UploadedMission& mission = px4.mission();
+  const std::size_t count = mission.steps.size();
+  const bool is_on = px4.nav_state() == NavState::mission;
+  return {.seq = static_cast<std::uint16_t>(mission.current),
+          .total = static_cast<std::uint16_t>(count == 0 ? 0xffff : count),
+          .state = count == 0                ? kNone
+                   : mission.is_complete     ? kComplete
+                   : is_on && px4.is_armed() ? kActive
+                   : mission.current > 0     ? kPaused
+                                             : kNotStarted,
+          .mode = is_on ? std::uint8_t{1} : std::uint8_t{2}};
+}
 
 /// What it can do of MAVLink, and the PX4 whose rules it follows.
 AutopilotVersion autopilot_version(const VehicleReport&) {
   // MAV_PROTOCOL_CAPABILITY bits
-  constexpr std::uint64_t kMissionInt = 4;  // the words for missions; there are none
+  constexpr std::uint64_t kMissionFloat = 1, kMissionInt = 4;
   constexpr std::uint64_t kCommandInt = 8;
   constexpr std::uint64_t kParametersBytewise = 16;
-  constexpr std::uint64_t kLocalTargets = 128;
+  constexpr std::uint64_t kLocalTargets = 128, kGlobalTargets = 256;
   constexpr std::uint64_t kMavlink2 = 8192;
-  return {
-      .capabilities = kMissionInt | kCommandInt | kParametersBytewise | kLocalTargets | kMavlink2,
-      .uid = 1,
-      .flight_sw_version = 1 << 24 | 15 << 16 | 0 << 8 | 255,  // 1.15.0, a release
-      .flight_custom_version = {'g', 'n', 'b', 'v'}};
+  return {.capabilities = kMissionFloat | kGlobalTargets | kMissionInt | kCommandInt |
+                          kParametersBytewise | kLocalTargets | kMavlink2,
+          .uid = 1,
+          .flight_sw_version = 1 << 24 | 15 << 16 | 0 << 8 | 255,  // 1.15.0, a release
+          .flight_custom_version = {'g', 'n', 'b', 'v'}};
 }
 
 ProtocolVersion protocol_version(const VehicleReport&) { return {}; }
@@ -216,6 +278,9 @@ constexpr std::array kSaid = {said<heartbeat>(1.0),
                               said<gps_raw>(1.0),
                               said<vfr_hud>(10.0),
                               said<home_position>(0.5),
+                              said<highres_imu>(50.0),
+                              said<odometry>(30.0),
+                              said<mission_current>(1.0),
                               said<global_origin>(0.0),
                               said<autopilot_version>(0.0),
                               said<protocol_version>(0.0)};

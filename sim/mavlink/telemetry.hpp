@@ -16,9 +16,13 @@ namespace gnbv::mavlink {
 struct VehicleReport {
   VehicleState estimate = {};
   std::uint32_t time_boot_ms = 0;
-  const Px4* px4 = nullptr;  // only Heartbeat, ExtendedSysState, SysStatus, VfrHud and HomePosition
-  double energy_wh = 0.0;    // used
-  double battery_wh = 0.0;   // as PowerParameters has it
+  // only of Heartbeat, ExtendedSysState, SysStatus, VfrHud, HomePosition and MissionCurrent
+  const Px4* px4 = nullptr;
+  double energy_wh = 0.0;   // used
+  double battery_wh = 0.0;  // as PowerParameters has it
+  double power_w = 0.0;
+  Vec3 origin_world_m = Vec3::Zero();                       // of local NED
+  Vec3 specific_force_body_m_s2 = Vec3(0.0, 0.0, 9.80665);  // what an accelerometer feels
 };
 
 /// Message `id` about the vehicle as it is; nothing for one that it does not say.

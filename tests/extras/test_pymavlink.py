@@ -5,6 +5,7 @@ import threading
 import time
 
 import pytest
+from conftest import free_port
 
 mavutil = pytest.importorskip("pymavlink.mavutil")
 mavlink = mavutil.mavlink
@@ -190,7 +191,7 @@ def test_ground_stations_are_answered_in_order(fly, connected):
     client.link.mav.param_request_read_send(1, 1, b"NO_SUCH_THING", -1)
     assert "NO_SUCH_THING" in client.until("STATUSTEXT").text
 
-    for kind in range(3):
+    for kind in (mavlink.MAV_MISSION_TYPE_FENCE, mavlink.MAV_MISSION_TYPE_RALLY):
         client.link.mav.mission_request_list_send(1, 1, kind)
         count = client.until("MISSION_COUNT")
         assert (count.count, count.mission_type) == (0, kind)
@@ -246,6 +247,63 @@ def test_nobody_else_is_heard(fly, connected):
     assert client.until_disarmed()
     summary = vehicle.end()
     assert summary["dropped"]["foreign_datagrams"] == 10 and summary["commands"] == 0
+
+
+def test_a_mission_is_uploaded_read_back_and_flown(fly, connected):
+    vehicle = fly()
+    client = connected(f"udpin:127.0.0.1:{vehicle.port}")
+    home = client.until("HOME_POSITION")
+
+    def item(command, north_m, east_m, up_m, hold_s=0):
+        return (6, command, 0, 1, hold_s, 0, 0, math.nan, home.latitude + round(north_m * 89.9),
+                home.longitude + round(east_m * 132.8), up_m)
+
+    corners = [(1.5, 0), (1.5, 1.5), (0, 1.5)]
+    items = [item(mavlink.MAV_CMD_NAV_TAKEOFF, 0, 0, 3),
+             *(item(mavlink.MAV_CMD_NAV_WAYPOINT, n, e, 3, 1) for n, e in corners),
+             item(mavlink.MAV_CMD_NAV_LAND, 0, 1.5, 0)]
+    client.link.mav.mission_count_send(1, 1, len(items), 0)
+    for _ in items:
+        seq = client.until("MISSION_REQUEST_INT").seq
+        client.link.mav.mission_item_int_send(1, 1, seq, *items[seq], 0)
+    assert client.until("MISSION_ACK").type == mavlink.MAV_MISSION_ACCEPTED
+    client.link.mav.mission_request_list_send(1, 1, 0)
+    assert client.until("MISSION_COUNT").count == len(items)
+    for seq, wanted in enumerate(items):
+        client.link.mav.mission_request_int_send(1, 1, seq, 0)
+        got = client.until("MISSION_ITEM_INT")
+        assert (got.seq, got.command, got.x, got.y, got.z) == (seq, wanted[1], *wanted[8:])
+
+    assert client.command(mavlink.MAV_CMD_MISSION_START, 0, 0) == 0
+    for seq in range(len(items)):
+        assert client.until("MISSION_ITEM_REACHED").seq == seq
+    client.until_disarmed()
+    end = client.position()
+    assert math.dist((end.x, end.y), (0, 1.5)) < 0.7, "local places count from home"
+    vehicle.end()
+
+
+def test_a_ground_station_listens_beside_the_program(fly, connected):
+    """The connection of a ground station, in the words of mavlink.io's services."""
+    port = free_port()
+    vehicle = fly("--mavlink", f"udpout://127.0.0.1:{port}",
+                  "--mavlink", f"udpout://127.0.0.1:{port + 1}", port=port)
+    program = connected(f"udpin:127.0.0.1:{port}")
+    station = connected(f"udpin:127.0.0.1:{port + 1}")
+    for command, message in ((148, "AUTOPILOT_VERSION"), (42, "MISSION_CURRENT"),
+                             (242, "HOME_POSITION"), (331, "ODOMETRY"), (105, "HIGHRES_IMU")):
+        station.link.mav.command_long_send(1, 1, mavlink.MAV_CMD_REQUEST_MESSAGE, 0, command,
+                                           0, 0, 0, 0, 0, 0)
+        station.until(message)
+    for kind in range(3):
+        station.link.mav.mission_request_list_send(1, 1, kind)
+        assert station.until("MISSION_COUNT").count == 0
+    while program.link.recv_match() is not None:
+        pass  # what it was not read for; a full buffer would lose the answer
+    assert program.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1) == 0
+    station.until("STATUSTEXT", lambda m: m.text.startswith("Local NED counts from"))
+    station.until("HEARTBEAT", lambda m: m.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
+    vehicle.end()
 
 
 def test_it_waits_where_it_is_told_to(fly, connected):

@@ -203,6 +203,18 @@ def test_tum_truth_and_estimate_agree(exported, frames):
         assert np.arccos(np.clip((np.trace(off) - 2) / 2, -1, 1)) < np.radians(1)
         assert is_near(pose(row[1:]), frame.T)
         assert (colour_of(out / pair[1]) == frame.colour).all()
+        assert (depth_mm_of(out / pair[3]) == 5 * frame.depth_mm).all(), '5000 steps a metre'
+
+
+def test_tum_depth_has_the_steps_that_are_asked_for(run, flown, tmp_path, frames):
+    for factor, depth_of in ((1000, lambda mm: mm), (20000, lambda mm: 20 * mm * (mm < 3277))):
+        end = run(f'export {flown} --format tum --depth-factor {factor} -o asked{factor}')
+        assert ('deeper than the 3.3 m' in end.err) == (factor == 20000)
+        out = tmp_path / f'asked{factor}/rgbd'
+        for pair, frame in zip(rows_of(out / 'associations.txt'), frames, strict=True):
+            assert (depth_mm_of(out / pair[3]) == depth_of(frame.depth_mm)).all()
+    for words in ('--format tum --depth-factor 0', '--format plain --depth-factor 5000'):
+        run(f'export {flown} {words}', code=2)
 
 
 def test_plain_files_hold_body_and_camera(exported, flown, frames):
@@ -249,7 +261,8 @@ def test_colmap_triangulates_our_images_onto_the_true_surface(run, whole, tmp_pa
     assert figures['Mean track length'] > 2 and figures['Mean reprojection error'] < 0.5
     files = '--database_path d.db --image_path model/images'
     colmap('feature_extractor --SiftExtraction.use_gpu 0 --ImageReader.camera_model PINHOLE '
-           '--ImageReader.single_camera_per_folder 1 --ImageReader.camera_params '
+           '--ImageReader.single_camera 1 --image_list_path model/cameras/1.txt '
+           '--ImageReader.camera_params '
            f'{",".join(map(str, ours.k))} {files}')
     colmap('exhaustive_matcher --SiftMatching.use_gpu 0 --database_path d.db')
     colmap('point_triangulator --clear_points 1 --Mapper.ba_refine_focal_length 0 '

@@ -82,6 +82,23 @@ def test_speaks_first_to_where_its_client_waits(run, client):
     assert first[0] == 0xfd and first[7:10] == b'\0\0\0', 'a heartbeat'
 
 
+def test_several_clients_hear_the_vehicle_under_its_number(run):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as a, \
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as b:
+        links = []
+        for udp in (a, b):
+            udp.bind(('127.0.0.1', 0))
+            udp.settimeout(5)
+            links.append(f'--mavlink udpout://127.0.0.1:{udp.getsockname()[1]}')
+        end = run(f'fly {" ".join(links)} smoke --set vehicle.system_id=7 --speed 5 --duration 5')
+        assert end.err.count('gnbv: speaking to') == 2
+        for udp in (a, b):
+            first = udp.recv(2048)
+            assert first[5] == 7 and first[7:10] == b'\0\0\0', 'a heartbeat'
+    run('fly smoke --set vehicle.system_id=0', 'vehicle.system_id', code=2)
+    run('fly smoke --local-origin nowhere', code=2)
+
+
 def test_ctrl_c_is_an_ordinary_end(flying):
     process = flying(PORT)
     process.send_signal(signal.SIGINT)
@@ -91,7 +108,7 @@ def test_ctrl_c_is_an_ordinary_end(flying):
 
 def test_touching_the_structure_is_a_failure_that_says_where(flying, client):
     """OFFBOARD, arming and the middle of the structure, asked for until it ends."""
-    process = flying(f'{PORT} --speed 2 --duration 60')
+    process = flying(f'{PORT} --speed 2 --duration 60 --local-origin scenario')
     while process.poll() is None:
         for packet in (frame(84, 'I11fHBBB', 0, 0, 0, -0.7, *[0] * 8, 2552, 1, 1, 1),
                        frame(11, 'IBB', 6 << 16, 1, 1),

@@ -1,5 +1,10 @@
 """Environments."""
 
+import multiprocessing
+import os
+import signal
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -50,7 +55,6 @@ def test_check_env(action):
     env = gymnasium.make("gnbv/Smoke-v0", action=action, set=BUDGET).unwrapped
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        warnings.filterwarnings("ignore", message=".*render.*")
         check_env(env, skip_render_check=True)
     env.close()
 
@@ -142,6 +146,160 @@ def test_a_vector_does_what_single_ones_do_at_any_number_of_threads(threads):
             assert same(seen, {key: batch[key][i] for key in batch})
         over = ended | cut
     envs.close()
+
+
+def of_kind(kind, **more):
+    """An environment, or a vector of two; both are stepped alike."""
+    if kind == "single":
+        return gymnasium.make("gnbv/Smoke-v0", set=BUDGET, goal=0.0, **more).unwrapped
+    return gymnasium.make_vec("gnbv/Smoke-v0", num_envs=2, set=BUDGET, goal=0.0, **more)
+
+
+KINDS = pytest.mark.parametrize("kind", ["single", "vector"])
+
+
+def within(seconds, call):
+    """Its exception; a hang fails the test, and its thread goes with the process."""
+    raised = []
+
+    def run():
+        try:
+            call()
+        except BaseException as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    assert not thread.is_alive(), "it hangs"
+    return raised[0] if raised else None
+
+
+@KINDS
+def test_a_closed_environment_says_so_and_can_be_reset(kind):
+    env = of_kind(kind)
+    env.reset(seed=1)
+    action = env.action_space.sample()
+    (env.close if kind == "single" else env.close_extras)()
+    error = within(20, lambda: env.step(action))
+    assert isinstance(error, RuntimeError) and "closed; call reset()" in str(error)
+    env.reset(seed=1)
+    env.step(action)
+
+
+@KINDS
+@pytest.mark.parametrize("does", ["step", "reset", "close"])
+def test_in_a_forked_child_nothing_waits(kind, does):
+    env = of_kind(kind)
+    env.reset(seed=1)
+    said, saying = multiprocessing.Pipe(duplex=False)
+
+    def child():
+        try:
+            if does == "step":
+                env.step(env.action_space.sample())
+            else:
+                getattr(env, does)()
+            saying.send("")
+        except BaseException as error:
+            saying.send(f"{type(error).__name__}: {error}")
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # Python warns of forks with threads
+        process = multiprocessing.get_context("fork").Process(target=child)
+        process.start()
+    process.join(20)
+    hangs = process.is_alive()
+    process.kill()
+    assert not hangs and said.poll()
+    message = said.recv()
+    if does == "close":  # also what the child's end does
+        assert message == ""
+    else:
+        assert message.startswith("RuntimeError: ") and "forked" in message, message
+    env.step(env.action_space.sample())  # the parent's flies on
+
+
+def test_ctrl_c_ends_a_wait_and_what_is_left_says_so():
+    env = gymnasium.make("gnbv/Aircraft-v0", goal=0.0).unwrapped  # its profile takes seconds
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        env.reset(seed=1)
+    assert time.monotonic() - begin < 2.0
+    with pytest.raises(RuntimeError, match=r"interrupted.*reset"):
+        env.step(env.action_space.sample())
+    env.close()
+
+
+BAD = [
+    ("single", [np.zeros(3), np.zeros((1, 4)), np.full(4, np.nan), [0, 0, np.inf, 0], None, "up"]),
+    ("vector", [np.zeros((1, 4)), np.zeros((3, 4)), np.zeros(4), [[0] * 4, [np.nan] * 4],
+                [[0] * 4, [0] * 3]]),
+]
+
+
+@pytest.mark.parametrize("kind, bad", BAD)
+def test_an_action_that_is_none_moves_nothing(kind, bad):
+    """Oracle: the same actions without the bad ones among them."""
+    batch = () if kind == "single" else (2,)
+    random = np.random.default_rng(1)
+    good = [random.uniform(-1, 1, (*batch, 4)).astype(np.float32) for _ in range(3)]
+
+    def flown(between):
+        env = of_kind(kind)
+        env.reset(seed=2)
+        trace = []
+        for action in good:
+            for none in between:
+                with pytest.raises(ValueError):
+                    env.step(none)
+            trace.append(env.step(action)[:4])
+        env.close()
+        return trace
+
+    assert same(flown([]), flown(bad))
+
+
+def test_candidates_and_seeds_are_checked_likewise():
+    env = gymnasium.make("gnbv/Smoke-v0", action="candidate", set=BUDGET, goal=0.0).unwrapped
+    env.reset(seed=1)
+    for none in (-1, env.action_space.n, 0.5, True, [0], np.nan):
+        with pytest.raises(ValueError):
+            env.step(none)
+    assert env._episode.steps == 0
+    envs = of_kind("vector")
+    envs.reset(seed=1)
+    before = [episode.mission for episode in envs._episodes]
+    for seeds in ([1], [1, 2, 3]):
+        with pytest.raises(ValueError, match="seeds"):
+            envs.reset(seed=seeds)
+    assert before == [episode.mission for episode in envs._episodes]
+    envs.step(envs.action_space.sample())
+
+
+@KINDS
+def test_a_picture_shows_the_map_and_the_way(kind):
+    env = of_kind(kind, render_mode="rgb_array")
+    assert env.metadata["render_modes"] == ["rgb_array"] and env.metadata["render_fps"] > 0
+    env.reset(seed=1)
+
+    def pictures():
+        drawn = env.render()
+        return [drawn] if kind == "single" else list(drawn)
+
+    first = pictures()
+    for _ in range(3):
+        env.step(env.action_space.sample())
+    for before, after in zip(first, pictures(), strict=True):
+        assert before.dtype == np.uint8 and before.shape == after.shape and before.shape[2] == 3
+        way = (after == (200, 30, 60)).all(axis=2).sum()
+        assert way > 20 and (before == (200, 30, 60)).all(axis=2).sum() == 0
+        assert (after[:, :, 0] > 200).sum() > 100, "what is known is bright"
+    assert of_kind(kind).render() is None
+    with pytest.raises(ValueError, match="render_mode"):
+        of_kind(kind, render_mode="human_eye")
+    env.close()
 
 
 def test_all_scenarios_are_registered():

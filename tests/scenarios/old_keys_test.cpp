@@ -23,10 +23,10 @@ TEST(OldKeys, AtTheirFormerDefaultsAreOneLineOnStderr) {
   const std::string said = said_of(kMinimal +
                                    "vehicle:\n"
                                    "  autopilot:\n"
-                                   "    commander: {offboard_loss_s: 1, jerk_m_s3: 4.0,\n"
+                                   "    commander: {spool_up_s: 1, jerk_m_s3: 4.0,\n"
                                    "      offboard_loss_action: position, land_speed_m_s: 0.7}\n");
   EXPECT_THAT(said, AllOf(HasSubstr("s.yaml: "),
-                          HasSubstr("vehicle.autopilot.commander.offboard_loss_s and 3 more: ")));
+                          HasSubstr("vehicle.autopilot.commander.spool_up_s and 3 more: ")));
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
   EXPECT_EQ(said_of(kMinimal), "");
   EXPECT_THAT(said_of(kMinimal, {"vehicle.autopilot.commander.spool_up_s=1"}),
@@ -46,8 +46,8 @@ TEST(OldKeys, WithAnyOtherValueAreRefusedByNameAsAreUnknownOnesBesideThem) {
     return complaint(fmt::format("{}vehicle:\n  {{preset: {}, autopilot: {{commander: {{{}}}}}}}\n",
                                  kMinimal, preset, keys));
   };
-  EXPECT_EQ(commander("iris", "offboard_loss_s: 2"),
-            "s.yaml:3: vehicle.autopilot.commander.offboard_loss_s: value '2': the key was removed "
+  EXPECT_EQ(commander("iris", "spool_up_s: 2"),
+            "s.yaml:3: vehicle.autopilot.commander.spool_up_s: value '2': the key was removed "
             "after version 0.1; only its former default, 1, is still read");
   EXPECT_THAT(complaint(kMinimal, {"vehicle.autopilot.commander={spool_up_s: 3}"}),
               HasSubstr("vehicle.autopilot.commander.spool_up_s: value '3': "));
@@ -55,8 +55,8 @@ TEST(OldKeys, WithAnyOtherValueAreRefusedByNameAsAreUnknownOnesBesideThem) {
   EXPECT_EQ(commander("iris_sitl_2019",
                       "offboard_loss_s: 0.5, offboard_loss_action: rtl, offboard_loss_hold_s: 5"),
             "");
-  EXPECT_THAT(commander("iris_sitl_2019", "offboard_loss_s: 1"),
-              HasSubstr("only its former default, 0.5, is still read"));
+  EXPECT_THAT(commander("iris_sitl_2019", "offboard_loss_hold_s: 1"),
+              HasSubstr("only its former default, 5, is still read"));
   EXPECT_EQ(commander("authors", "tilt_max_on_ground_deg: 15"), "");
   EXPECT_THAT(commander("iris", "offboard_los_s: 1"),
               HasSubstr("vehicle.autopilot.commander.offboard_los_s: is no known key"));

@@ -189,7 +189,9 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
              VolumeWeights{}, ShadowConfig{}, UserFunctionConfig{}, TourConfig{}, SymmetryConfig{},
              RouteConfig{}, OracleConfig{}, ViewPose{}, TerminationConfig{}, PlannerConfig{},
              StructureConfig{}, ObstacleConfig{}, ScoreConfig{}, BenchmarkConfig{});
-  expect(AutopilotParameters{}, -1);                  // the commander's are PX4 parameters
+  expect(AutopilotParameters{});
+  // the commander's others are PX4 parameters
+  EXPECT_EQ(counter.counts.extract(typeid(CommanderParameters)).mapped(), 1U);
   expect(StartConfig{}, 1);                           // pose is two keys
   expect(NoFlyConfig{}, 1);                           // a box is two keys
   expect(Scenario{}, -1);                             // placed_at is no key

@@ -19,24 +19,28 @@ constexpr const char* kColmapReadme =
 sparse/0/cameras.txt   PINHOLE fx fy cx cy in pixels; the centre of the first pixel is (0.5, 0.5)
 sparse/0/images.txt    world to camera (x right, y down, z forward), world ENU in metres
 sparse/0/points3D.txt  points of the run's cloud, with the images whose depth shows them
-images/CAMERA/N.png    colour of view N; the depth images are in the run's folder frames/
+images/CAMERA_N.png    colour of view N, all in one folder, where the readers of Gaussian splatting
+                       look; the depth images are in the run's folder frames/
+cameras/ID.txt         the images of that camera of cameras.txt
 
 Poses are those that the vehicle believed; `gnbv export --format tum` has the true ones, too.
 The keypoints in images.txt are projections of the points, not detected features: their
 reprojection error is 0. To work with features instead:
 
   colmap feature_extractor --database_path d.db --image_path images \
-    --ImageReader.single_camera_per_folder 1 --ImageReader.camera_model PINHOLE
+    --image_list_path cameras/1.txt --ImageReader.single_camera 1 \
+    --ImageReader.camera_model PINHOLE
   colmap exhaustive_matcher --database_path d.db
   mkdir triangulated && colmap point_triangulator --database_path d.db --image_path images \
     --input_path sparse/0 --output_path triangulated --clear_points 1
 
-The database numbers images and camera folders as this model does; with one camera, add
---ImageReader.camera_params and its line of cameras.txt, so that the matcher knows it, too.
+The first line once for each camera, in the order of their numbers: so the database numbers
+images and cameras as this model does. --ImageReader.camera_params with the camera's numbers of
+cameras.txt lets the matcher know them, too.
 )";
 
 std::string image_path(const FrameRecord& frames, const RecordedFrame& frame) {
-  return fmt::format("{}/{}.png", file_word(frames.cameras[frame.camera]), frame_number(frame));
+  return fmt::format("{}_{}.png", file_word(frames.cameras[frame.camera]), frame_number(frame));
 }
 
 /// The frames in the order of their names: COLMAP's own programs number images so, from 1.
@@ -49,15 +53,15 @@ std::vector<std::size_t> frames_by_name(const FrameRecord& frames) {
   return order;
 }
 
-/// Of each camera, from 1: in the order in which the names of its images come, which is that in
-/// which COLMAP's programs meet the folders. The slash counts: "rgbd-down/" comes before "rgbd/".
+/// Of each camera, from 1: in the order in which the names of its images come. What follows the
+/// camera's name counts: "rgbd-down_0..." comes before "rgbd_0...".
 std::vector<std::ptrdiff_t> camera_ids(const FrameRecord& frames) {
-  std::vector<std::string> folders;
-  for (const FrameCamera& camera : frames.cameras) folders.push_back(file_word(camera) + "/");
+  std::vector<std::string> begins;
+  for (const FrameCamera& camera : frames.cameras) begins.push_back(file_word(camera) + "_0");
   std::vector<std::ptrdiff_t> ids;
-  for (const std::string& folder : folders) {
-    const auto is_before = [&](const std::string& other) { return other < folder; };
-    ids.push_back(1 + std::ranges::count_if(folders, is_before));
+  for (const std::string& begin : begins) {
+    const auto is_before = [&](const std::string& other) { return other < begin; };
+    ids.push_back(1 + std::ranges::count_if(begins, is_before));
   }
   return ids;
 }
@@ -126,8 +130,15 @@ void write_colmap(const FrameRecord& frames, const SparseModel& model, const fs:
   write_file_atomically(sparse / "images.txt", images_text(frames, model, order, ids));
   write_file_atomically(sparse / "points3D.txt", points_text(model, order));
   write_file_atomically(folder / "README.txt", kColmapReadme);
-  for (const RecordedFrame& frame : frames.frames) {
+  std::vector<std::string> lists(ids.size());
+  for (const std::size_t i : order) {
+    const RecordedFrame& frame = frames.frames[i];
+    lists[frame.camera] += image_path(frames, frame) + "\n";
     link_or_copy(frame.colour, folder / "images" / image_path(frames, frame));
+  }
+  fs::create_directories(folder / "cameras");
+  for (std::size_t camera = 0; camera < ids.size(); ++camera) {
+    write_file_atomically(folder / "cameras" / fmt::format("{}.txt", ids[camera]), lists[camera]);
   }
 }
 

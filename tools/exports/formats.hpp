@@ -23,7 +23,7 @@ struct ExportParts {
 };
 
 /// A COLMAP model with known poses (https://colmap.github.io/format.html):
-/// sparse/0/{cameras,images,points3D}.txt, images/CAMERA/NUMBER.png and README.txt. Poses are from
+/// sparse/0/{cameras,images,points3D}.txt, images/CAMERA_NUMBER.png and README.txt. Poses are from
 /// world to camera (x right, y down, z forward); pixels are COLMAP's as they are ours, the centre
 /// of the first one at (0.5, 0.5). Observations are projections, not detected features, so that
 /// reprojection errors are 0.
@@ -49,9 +49,12 @@ void write_plain(const RunRecord& record, const ExportParts& parts,
 /// of the body as `evo_traj tum` opens it, README.txt, and for each camera that took frames CAMERA/
 /// with rgb/, depth/, calibration.txt, rgb.txt, depth.txt, associations.txt, groundtruth.txt (true
 /// poses of the camera) and estimate.txt (the poses the vehicle believed). Throws BadInput for a
-/// run without trajectory.tum and for cameras that the scenario does not know.
-void write_tum(const RunRecord& record, const std::optional<FrameRecord>& frames,
-               const std::filesystem::path& folder);
+/// run without trajectory.tum and for cameras that the scenario does not know. Depth has so many
+/// steps a metre; what is too far for 16 bits is 0, "none". Returns how many pixels were.
+std::size_t write_tum(const RunRecord& record, const std::optional<FrameRecord>& frames,
+                      double depth_steps_per_m, const std::filesystem::path& folder);
+/// Of the benchmark's own images, which its readers divide by.
+constexpr double kTumDepthStepsPerM = 5000.0;
 
 /// For viewers with a timeline, by Python: run.rrd (format "rerun") or run.mcap with Foxglove's
 /// schemas ("mcap"), written in `python3`, or what GNBV_PYTHON names: structure, cloud as it grew,

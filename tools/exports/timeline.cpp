@@ -164,7 +164,7 @@ std::string write_timeline(const RunRecord& record, const ExportParts& parts,
        .modules = {{"recorded_run", recorded_run_py()},
                    {fmt::format("to_{}", format), is_rerun ? to_rerun_py() : to_mcap_py()}},
        .entry = "recorded_run",
-       .pip = is_rerun ? "numpy rerun-sdk"
+       .pip = is_rerun ? "numpy 'rerun-sdk>=0.28'"
                        : "numpy mcap mcap-protobuf-support foxglove-schemas-protobuf pillow"},
       scene);
   fs::remove_all(handed);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/core/error.hpp"
@@ -27,7 +28,7 @@ CAMERA/calibration.txt   fx fy cx cy width height in pixels, no distortion; the 
                          first pixel at (0.5, 0.5)
 CAMERA/rgb.txt           time and name of every colour image
 CAMERA/depth.txt         time and name of every depth image: 16 bits, {} steps a metre
-                         (the benchmark's own have 5000), 0 where there is none
+                         (the benchmark's own have 5000), 0 where there is none or it is beyond {} m
 CAMERA/associations.txt  both, matched: time rgb time depth
 
 The folders of cameras are there for runs that were flown with --frames. Time is simulated and
@@ -77,14 +78,37 @@ CameraModel camera_named(const RunRecord& record, std::string_view name) {
                              (record.folder / kFramesFolder).string(), name));
 }
 
-void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_t camera,
-                  const fs::path& folder) {
+/// The depth image with that many steps a metre; how many pixels are too far for it.
+std::size_t write_depth(const FrameRecord& frames, std::size_t frame, double steps_per_m,
+                        const fs::path& file) {
+  const RecordedFrame& recorded = frames.frames[frame];
+  const double factor = steps_per_m * frames.cameras[recorded.camera].depth_scale_m;
+  if (std::abs(factor - 1.0) < 1e-9) {
+    link_or_copy(recorded.depth, file);
+    return 0;
+  }
+  std::size_t too_far = 0;
+  GreyImage16 image = read_depth(frames, frame);
+  for (std::uint16_t& value : image.values) {
+    const double scaled = std::round(factor * value);
+    too_far += scaled > 65535.0 ? 1 : 0;
+    value = scaled > 65535.0 ? std::uint16_t{0} : static_cast<std::uint16_t>(scaled);
+  }
+  fs::create_directories(file.parent_path());
+  write_png(image, file, Lasting::the_process);
+  return too_far;
+}
+
+std::size_t write_camera(const RunRecord& record, const FrameRecord& frames, std::size_t camera,
+                         double steps_per_m, const fs::path& folder) {
+  std::size_t too_far = 0;
   std::string rgb = "# time_s file\n";
   std::string depth = rgb;
   std::string associations;
   std::string estimate = tum_text("optical frame in world ENU, believed", {});
   std::vector<double> times_s;
-  for (const RecordedFrame& frame : frames.frames) {
+  for (std::size_t i = 0; i < frames.frames.size(); ++i) {
+    const RecordedFrame& frame = frames.frames[i];
     if (frame.camera != camera) continue;
     const std::string name = fmt::format("{:.3f}.png", frame.time_s);
     rgb += fmt::format("{:.3f} rgb/{}\n", frame.time_s, name);
@@ -94,9 +118,9 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
     estimate += tum_line(frame.time_s, frame.T_world_camera);
     times_s.push_back(frame.time_s);
     link_or_copy(frame.colour, folder / "rgb" / name);
-    link_or_copy(frame.depth, folder / "depth" / name);
+    too_far += write_depth(frames, i, steps_per_m, folder / "depth" / name);
   }
-  if (times_s.empty()) return;
+  if (times_s.empty()) return 0;
   const FrameCamera& c = frames.cameras[camera];
   const CameraModel model = camera_named(record, c.name);
   write_file_atomically(folder / "calibration.txt",
@@ -110,23 +134,25 @@ void write_camera(const RunRecord& record, const FrameRecord& frames, std::size_
                         model.config.gimbal
                             ? groundtruth_at_frames(record, model, frames, camera)
                             : groundtruth_text(record, model.T_body_camera, times_s));
+  return too_far;
 }
 
 }  // namespace
 
-void write_tum(const RunRecord& record, const std::optional<FrameRecord>& frames,
-               const fs::path& folder) {
+std::size_t write_tum(const RunRecord& record, const std::optional<FrameRecord>& frames,
+                      double depth_steps_per_m, const fs::path& folder) {
   if (record.path.empty()) throw BadInput(record.missing.front());  // trajectory.tum
   write_file_atomically(folder / "trajectory.txt",
                         tum_text("body FLU in world ENU, true", record.path));
-  double steps_per_m = 1000.0;
-  if (frames) {
-    steps_per_m = 1.0 / frames->cameras.front().depth_scale_m;
-    for (std::size_t i = 0; i < frames->cameras.size(); ++i) {
-      write_camera(record, *frames, i, folder / file_word(frames->cameras[i]));
-    }
+  std::size_t too_far = 0;
+  for (std::size_t i = 0; frames && i < frames->cameras.size(); ++i) {
+    too_far +=
+        write_camera(record, *frames, i, depth_steps_per_m, folder / file_word(frames->cameras[i]));
   }
-  write_file_atomically(folder / "README.txt", fmt::format(fmt::runtime(kTumReadme), steps_per_m));
+  write_file_atomically(folder / "README.txt",
+                        fmt::format(fmt::runtime(kTumReadme), depth_steps_per_m,
+                                    std::floor(65535.0 / depth_steps_per_m * 10.0) / 10.0));
+  return too_far;
 }
 
 }  // namespace gnbv

@@ -27,6 +27,7 @@ struct ExportOptions {
   fs::path out;
   std::string format;
   std::optional<std::size_t> points;
+  std::optional<double> depth_factor;
   int threads = 0;
   bool quiet = false;
 };
@@ -84,7 +85,13 @@ std::optional<RunCloud> cloud_if_there(const RunRecord& record) {
 }
 
 void fill_tum(const Export& e, const fs::path& folder) {
-  write_tum(e.record, frames_if_kept(e.record), folder);
+  const double steps_per_m = e.options.depth_factor.value_or(kTumDepthStepsPerM);
+  const std::size_t too_far = write_tum(e.record, frames_if_kept(e.record), steps_per_m, folder);
+  if (too_far > 0) {
+    say("{} pixels are deeper than the {:.1f} m that 16 bits hold of {} steps a metre, and are "
+        "written as none; --depth-factor takes fewer",
+        too_far, 65535.0 / steps_per_m, steps_per_m);
+  }
 }
 
 void fill_plain(const Export& e, const fs::path& folder) {
@@ -154,6 +161,9 @@ void export_run(const ExportOptions& options) {
   if (options.points && options.format != "colmap" && options.format != "nerfstudio") {
     throw BadInput(fmt::format("--points: {} has no sparse model", options.format));
   }
+  if (options.depth_factor && options.format != "tum") {
+    throw BadInput(fmt::format("--depth-factor: {} has a scale of its own", options.format));
+  }
   const RunRecord record = read_run(options.run);
   const fs::path folder =
       options.out.empty() ? record.folder / "export" / options.format : options.out;
@@ -186,6 +196,10 @@ void add_export_command(CLI::App& app) {
       ->add_option("--points", options->points,
                    "most points of the sparse model (colmap, nerfstudio; default: 100000)")
       ->check(CLI::Range(1, 100'000'000));
+  command
+      ->add_option("--depth-factor", options->depth_factor,
+                   "steps a metre of depth images (tum; default: 5000, as the benchmark's own)")
+      ->check(CLI::Range(1.0, 65535.0));
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet, "progress, no notes");
   command->callback([options] { export_run(*options); });

@@ -20,7 +20,8 @@ namespace {
 
 struct FlyOptions {
   ScenarioOptions scenario;
-  std::string url = "udpout://127.0.0.1:14540";  // PX4's onboard link
+  std::vector<std::string> urls = {"udpout://127.0.0.1:14540"};  // PX4's onboard link
+  std::string local_origin = "home";
   double speed = 1.0;
   double duration_s = 0.0;
   bool json = false;
@@ -28,10 +29,29 @@ struct FlyOptions {
 
 constexpr std::array<std::string_view, 3> kServeEndNames = {"stopped", "duration", "collision"};
 
+using Stations = std::vector<std::unique_ptr<Station>>;
+
+/// One of the counts, of all links together.
+std::uint64_t sum(const Stations& stations, const auto& count_of) {
+  std::uint64_t all = 0;
+  for (const auto& station : stations) all += count_of(station->endpoint);
+  return all;
+}
+
 nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& vehicle,
-                                  const mavlink::Endpoint& endpoint, const ServeResult& result) {
-  const mavlink::LinkCounts& link = endpoint.link_counts();
-  const mavlink::EndpointCounts& obeyed = endpoint.counts();
+                                  const Stations& stations, const ServeResult& result) {
+  using mavlink::EndpointCounts;
+  using mavlink::LinkCounts;
+  using mavlink::ReadCounts;
+  const auto obeyed = [&](std::uint64_t EndpointCounts::*count) {
+    return sum(stations, [&](const mavlink::Endpoint& e) { return e.counts().*count; });
+  };
+  const auto link = [&](std::uint64_t LinkCounts::*count) {
+    return sum(stations, [&](const mavlink::Endpoint& e) { return e.link_counts().*count; });
+  };
+  const auto frames = [&](std::uint64_t ReadCounts::*count) {
+    return sum(stations, [&](const mavlink::Endpoint& e) { return e.link_counts().frames.*count; });
+  };
   return {{"schema", "gnbv-fly-1"},
           {"scenario", scenario.name},
           {"preset", scenario.vehicle.preset},
@@ -40,22 +60,22 @@ nlohmann::ordered_json summary_of(const Scenario& scenario, const Quadrotor& veh
           {"flight_time_s", static_cast<double>(vehicle.tick()) * kTick_s},
           {"wall_s", result.wall_s},
           {"energy_wh", vehicle.energy_wh()},
-          {"datagrams", link.datagrams},
-          {"accepted", link.accepted},
-          {"setpoints", obeyed.setpoints},
-          {"refused_setpoints", obeyed.refused_setpoints},
-          {"commands", obeyed.commands},
-          {"questions", obeyed.questions},
-          {"ignored", obeyed.ignored},
-          {"sent", obeyed.sent},
-          {"unsaid", obeyed.unsaid},
+          {"datagrams", link(&LinkCounts::datagrams)},
+          {"accepted", link(&LinkCounts::accepted)},
+          {"setpoints", obeyed(&EndpointCounts::setpoints)},
+          {"refused_setpoints", obeyed(&EndpointCounts::refused_setpoints)},
+          {"commands", obeyed(&EndpointCounts::commands)},
+          {"questions", obeyed(&EndpointCounts::questions)},
+          {"ignored", obeyed(&EndpointCounts::ignored)},
+          {"sent", obeyed(&EndpointCounts::sent)},
+          {"unsaid", obeyed(&EndpointCounts::unsaid)},
           {"dropped",
-           {{"bad_crc", link.frames.bad_crc},
-            {"truncated", link.frames.truncated},
-            {"oversized", link.frames.oversized},
-            {"unknown", link.frames.unknown},
-            {"oversized_datagrams", link.oversized_datagrams},
-            {"foreign_datagrams", link.foreign_datagrams}}}};
+           {{"bad_crc", frames(&ReadCounts::bad_crc)},
+            {"truncated", frames(&ReadCounts::truncated)},
+            {"oversized", frames(&ReadCounts::oversized)},
+            {"unknown", frames(&ReadCounts::unknown)},
+            {"oversized_datagrams", link(&LinkCounts::oversized_datagrams)},
+            {"foreign_datagrams", link(&LinkCounts::foreign_datagrams)}}}};
 }
 
 /// The same figures in two lines.
@@ -119,44 +139,55 @@ void warn_beyond_loopback(const mavlink::Meeting& meeting) {
 
 /// Where, and what stands there, in the line that scripts wait for.
 void say_ready(const FlyOptions& options, const mavlink::Meeting& meeting,
-               const mavlink::Address& bound, const std::string& vehicle, const ViewPose& start) {
+               const mavlink::Address& bound, const VehicleConfig& vehicle, const ViewPose& start) {
   const std::string where =
       meeting.speaks_first
           ? fmt::format("speaking to udpout{} from {}", mavlink::url_of(meeting.address).substr(3),
                         mavlink::url_of(bound))
           : fmt::format("listening on {}", mavlink::url_of(bound));
-  say("{}, {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends", where, vehicle, start.p_world_m.x(),
-      start.p_world_m.y(), options.speed);
+  say("{}, {} {} at x {:.2f} y {:.2f} m, speed {}; Ctrl-C ends", where, vehicle.preset,
+      vehicle.system_id, start.p_world_m.x(), start.p_world_m.y(), options.speed);
 }
 
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
-  const mavlink::Meeting meeting = mavlink::resolve_meeting(options.url);
+  std::vector<mavlink::Meeting> meetings;
+  for (const std::string& url : options.urls) meetings.push_back(mavlink::resolve_meeting(url));
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
   const ViewPose start = ground_start(scenario, RayScene(world));
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
                     scenario.wind);
-  mavlink::Endpoint endpoint(scenario.vehicle.power.battery_wh,
-                             meeting.speaks_first ? std::optional(meeting.address) : std::nullopt);
-  mavlink::UdpSocket socket(mavlink::bound_for(meeting));
+  mavlink::Aboard aboard{.system_id = static_cast<std::uint8_t>(scenario.vehicle.system_id),
+                         .battery_wh = scenario.vehicle.power.battery_wh};
+  if (options.local_origin == "home") {
+    aboard.origin_world_m = vehicle.state().T_world_body.translation();
+  }
+  Stations stations;
+  for (const mavlink::Meeting& meeting : meetings) {
+    stations.push_back(std::make_unique<Station>(aboard, meeting));
+  }
 
   const InterruptGuard interrupt;
-  warn_beyond_loopback(meeting.speaks_first ? meeting : mavlink::Meeting{socket.address()});
-  say_ready(options, meeting, socket.address(), scenario.vehicle.preset, start);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const mavlink::Meeting& meeting = meetings[i];
+    const mavlink::Address bound = stations[i]->socket.address();
+    warn_beyond_loopback(meeting.speaks_first ? meeting : mavlink::Meeting{bound});
+    say_ready(options, meeting, bound, scenario.vehicle, start);
+  }
   const auto on_lag = [&options] {
     say("this machine does not always keep up with --speed {}: the time that it is late "
         "is not made up for",
         options.speed);
   };
-  const ServeResult result = serve(vehicle, endpoint, socket,
+  const ServeResult result = serve(vehicle, aboard, stations,
                                    {.speed = options.speed,
                                     .duration_s = options.duration_s,
                                     .should_stop = InterruptGuard::requested,
                                     .on_lag = on_lag});
-  const nlohmann::ordered_json summary = summary_of(scenario, vehicle, endpoint, result);
+  const nlohmann::ordered_json summary = summary_of(scenario, vehicle, stations, result);
   fmt::print("{}", options.json ? summary.dump(2) + "\n" : text_of(summary));
   if (result.end == ServeEnd::collision) {
     const Vec3 p_world_m = vehicle.state().T_world_body.translation();
@@ -172,8 +203,8 @@ void add_fly_command(CLI::App& app) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* const command = app.add_subcommand("fly", "serve the vehicle to a MAVLink client");
   command->footer(
-      "The vehicle stands on the ground at the scenario's start, disarmed, as system 1, component "
-      "1,\n"
+      "The vehicle stands on the ground at the scenario's start, disarmed, as component 1 of the\n"
+      "system that vehicle.system_id says,\n"
       "and speaks like PX4: first, to port 14540 of this machine, where MAVSDK and pymavlink "
       "wait,\n"
       "and hears nobody else (QGroundControl waits at udpout://127.0.0.1:14550). With udpin:// it\n"
@@ -181,13 +212,22 @@ void add_fly_command(CLI::App& app) {
       "is\n"
       "armed nobody else is heard; while it is not, another address is answered when that client\n"
       "was silent for 5 s, or asks for something when the client asked for nothing in 5 s.\n"
-      "NED coordinates count from the scenario's origin: north is y, east is x; on the globe it\n"
-      "lies at 47.397742 N 8.545594 E, its z = 0 at sea level.");
+      "Given several times, --mavlink serves a client at each: a ground station beside a program.\n"
+      "Local NED counts from where the vehicle stands, as PX4's does, or with --local-origin "
+      "scenario\n"
+      "from the scenario's origin: north is y, east is x; on the globe that lies at 47.397742 N\n"
+      "8.545594 E, its z = 0 at sea level. Missions are uploaded, and flown in mode MISSION.");
   add_scenario_options(*command, options->scenario);
   command
-      ->add_option("--mavlink", options->url,
+      ->add_option("--mavlink", options->urls,
                    "udpout://HOST:PORT to speak to, or udpin://HOST:PORT to listen at (udp:// "
-                   "means the same), where port 0 finds a free one")
+                   "means the same), where port 0 finds a free one; may be given again")
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command
+      ->add_option("--local-origin", options->local_origin,
+                   "where local NED is 0, 0, 0: home or scenario")
+      ->check(CLI::IsMember({"home", "scenario"}))
       ->capture_default_str();
   command
       ->add_option("--speed", options->speed,

@@ -26,9 +26,11 @@ def main() -> dict:
     except ImportError as error:
         pip = f"{sys.executable} -m pip install {script['pip']}"
         installs = f"apt-get install {script['apt']}, or {pip}," if script["apt"] else pip
+        is_there = not isinstance(error, ModuleNotFoundError)  # of another version, perhaps
+        why = str(error) if is_there else f"Python's package {error.name} is not there"
         return {
             "missing": error.name,
-            "error": f"{script['what']}: Python's package {error.name} is not there; {installs} "
+            "error": f"{script['what']}: {why}; {installs} "
             "installs what it takes, and GNBV_PYTHON names another Python",
         }
     return {"answer": sys.modules[script["entry"]].main(request)}

@@ -29,6 +29,15 @@ nb::dict dict_of(const EnvState& state) {
   out["map"] = floats(state.seen.map);
   out["pose"] = floats(state.seen.pose);
   out["entropy_left"] = state.seen.entropy_left;
+  if (!state.top.empty()) {
+    const auto columns = static_cast<std::size_t>(state.grid.size()[0]);
+    const Key& low = state.grid.min_key();
+    const Key& size = state.grid.size();
+    const double voxel_m = state.grid.resolution_m();
+    out["top"] = owned_array(state.top, 2 * columns);
+    out["top_low_m"] = nb::make_tuple(voxel_m * low[0], voxel_m * low[1]);
+    out["top_high_m"] = nb::make_tuple(voxel_m * (low[0] + size[0]), voxel_m * (low[1] + size[1]));
+  }
   out["views"] = owned_array(state.seen.views, 5);
   out["mask"] = owned_array(state.seen.mask);
   out["candidates"] = owned_array(state.seen.candidates, kCandidateFeatures);
@@ -61,13 +70,29 @@ void act(EnvMission& env, const ViewRows& rows) {
   env.act(views_of(rows).front());
 }
 
-nb::dict wait(EnvMission& env) {
-  const EnvState* state = nullptr;
-  {
-    const nb::gil_scoped_release other_threads_run;
-    state = &env.wait();
+/// Asks until there is an answer, without the GIL; between two slices Python's signals are seen, so
+/// that Ctrl-C raises.
+auto until_answered(const auto& ask) {
+  while (true) {
+    {
+      const nb::gil_scoped_release other_threads_run;
+      if (const auto answer = ask()) return answer;
+    }
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
   }
-  return dict_of(*state);
+}
+
+nb::dict wait(EnvMission& env) {
+  return dict_of(*until_answered([&env] { return env.wait(); }));
+}
+
+void close(EnvMission& env) {
+  until_answered([&env] { return env.close(); });
+}
+
+void begin(EnvMission& env, std::uint64_t seed) {
+  close(env);
+  env.begin(seed);
 }
 
 }  // namespace
@@ -81,13 +106,13 @@ void bind_env(nb::module_& m) {
                    nb::sig("def description(self) -> dict[str, typing.Any]"));
   nb::class_<Permits>(m, "Permits").def(nb::init<int>(), nb::arg("count"));
   nb::class_<EnvMission>(m, "EnvMission")
-      .def(nb::init<std::shared_ptr<const EnvStage>, std::shared_ptr<Permits>, bool>(),
-           nb::arg("stage"), nb::arg("permits"), nb::arg("with_candidates"))
-      .def("begin", &EnvMission::begin, nb::arg("seed"), Free())
+      .def(nb::init<std::shared_ptr<const EnvStage>, std::shared_ptr<Permits>, bool, bool>(),
+           nb::arg("stage"), nb::arg("permits"), nb::arg("with_candidates"), nb::arg("with_top"))
+      .def("begin", &begin, nb::arg("seed"))
       .def("act", &act, nb::arg("view"),
            nb::sig("def act(self, view: numpy.typing.NDArray[numpy.float64]) -> None"))
       .def("wait", &wait, nb::sig("def wait(self) -> dict[str, typing.Any]"))
-      .def("close", &EnvMission::close, Free());
+      .def("close", &close);
 }
 
 }  // namespace gnbv

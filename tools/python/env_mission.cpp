@@ -1,5 +1,10 @@
 #include "tools/python/env_mission.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "bench/score/coverage_curve.hpp"
@@ -46,23 +51,43 @@ void Permits::give() {
 }
 
 EnvMission::EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
-                       bool with_candidates)
-    : stage_(std::move(stage)), permits_(std::move(permits)), with_candidates_(with_candidates) {}
+                       bool with_candidates, bool with_top)
+    : stage_(std::move(stage)),
+      permits_(std::move(permits)),
+      with_candidates_(with_candidates),
+      with_top_(with_top),
+      process_(getpid()) {}
 
-EnvMission::~EnvMission() { close(); }
+EnvMission::~EnvMission() {
+  while (!close()) continue;
+  static_cast<void>(thread_.release());  // a parent's can be neither joined nor detached
+}
 
-void EnvMission::close() {
-  {
-    const std::lock_guard lock(mutex_);
-    is_closing_ = true;
-    turned_.notify_all();
-  }
-  if (thread_.joinable()) thread_.join();
+void EnvMission::check_process() const {
+  if (getpid() == process_) return;
+  throw std::runtime_error(fmt::format(
+      "the environment was made in process {}, and its mission does not fly in a forked "
+      "child: make environments in the child, or start children by spawn",
+      process_));
+}
+
+bool EnvMission::close() {
+  if (!thread_ || getpid() != process_) return true;
+  std::unique_lock lock(mutex_);
+  is_closing_ = true;
+  turned_.notify_all();
+  const auto is_over = [this] { return turn_ == Turn::over; };
+  if (!turned_.wait_for(lock, std::chrono::duration<double>(kSlice_s), is_over)) return false;
+  lock.unlock();
+  thread_->join();
+  thread_.reset();
   is_closing_ = false;
+  return true;
 }
 
 void EnvMission::begin(std::uint64_t seed) {
-  close();
+  check_process();
+  if (thread_) throw std::runtime_error("the mission before has not ended");
   Scenario scenario = stage_->scenario;
   scenario.seed = seed;
   observer_ =
@@ -71,27 +96,41 @@ void EnvMission::begin(std::uint64_t seed) {
   action_.reset();
   failure_ = nullptr;
   turn_ = Turn::mission;
-  thread_ = std::thread([this, scenario = std::move(scenario)] { fly(scenario); });
+  try {
+    thread_ =
+        std::make_unique<std::thread>([this, scenario = std::move(scenario)] { fly(scenario); });
+  } catch (...) {
+    turn_ = Turn::over;  // nobody would wait for what does not fly
+    throw;
+  }
 }
 
 void EnvMission::act(const ViewPose& view) {
+  check_process();
   const std::lock_guard lock(mutex_);
+  if (turn_ != Turn::agent) throw std::runtime_error("the mission does not wait for a view");
   action_ = view;
   state_.refused.clear();
   turn_ = Turn::mission;
   turned_.notify_all();
 }
 
-const EnvState& EnvMission::wait() {
+const EnvState* EnvMission::wait() {
+  check_process();
   std::unique_lock lock(mutex_);
-  turned_.wait(lock, [this] { return turn_ != Turn::mission; });
+  const auto has_turned = [this] { return turn_ != Turn::mission; };
+  if (!turned_.wait_for(lock, std::chrono::duration<double>(kSlice_s), has_turned)) return nullptr;
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  return state_;
+  return &state_;
 }
 
 void EnvMission::keep(const Belief& belief) {
   state_.entropy_nat = belief.grid.total_entropy_nat();
   state_.cloud_points = belief.cloud.points_world_m().size();
+  if (with_top_) {
+    state_.grid = belief.grid.geometry();
+    state_.top = top_view(belief.grid);
+  }
   state_.seen = observer_->observe(belief, state_.pose, taken_, with_candidates_);
 }
 

@@ -48,6 +48,8 @@ class Permits {
 
 struct EnvState {
   bool ended = false;
+  GridGeometry grid;        // of `top`
+  std::vector<float> top;   // top_view() of the map, where pictures are wanted
   std::string termination;  // of the mission, when it has ended
   std::string refused;      // why the latest action was no view that can be flown; "" it was flown
   double coverage = 0.0;    // share of the surface, at 0.05 m: the truth
@@ -59,24 +61,33 @@ struct EnvState {
   EnvObservation seen;
 };
 
+/// Waits end after this long, so that their callers can look for signals between them.
+constexpr double kSlice_s = 0.05;
+
 class EnvMission final : public MissionObserver {
  public:
   EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
-             bool with_candidates);
+             bool with_candidates, bool with_top);
   ~EnvMission() override;
   EnvMission(const EnvMission&) = delete;
   EnvMission& operator=(const EnvMission&) = delete;
 
-  /// Ends what flies and begins anew; wait() says when it wants a view.
+  // The thread is of the process that made the mission: in a forked child there is none, close()
+  // has nothing to do, and the others throw std::runtime_error.
+
+  /// Begins anew; wait() says when it wants a view. Requires that close() returned true.
   void begin(std::uint64_t seed);
-  /// Requires that wait() has returned a state that has not ended.
+  /// Requires a mission that waits for a view; throws std::runtime_error otherwise.
   void act(const ViewPose& view);
-  /// Throws what the mission threw.
-  const EnvState& wait();
-  void close();
+  /// Its state when it wants a view or is over; nothing while it flies on, after kSlice_s. Throws
+  /// what the mission threw.
+  const EnvState* wait();
+  /// Tells the mission to end; whether it has, false after kSlice_s.
+  bool close();
 
  private:
   enum class Turn { mission, agent, over };
+  void check_process() const;
   void fly(Scenario scenario);
   std::optional<ViewPose> ask();
   void keep(const Belief& belief);
@@ -85,6 +96,7 @@ class EnvMission final : public MissionObserver {
   std::shared_ptr<const EnvStage> stage_;
   std::shared_ptr<Permits> permits_;
   bool with_candidates_;
+  bool with_top_;
   std::unique_ptr<EnvObserver> observer_;
 
   std::mutex mutex_;
@@ -96,7 +108,8 @@ class EnvMission final : public MissionObserver {
   EnvState state_;
   std::function<double(const Belief&)> coverage_of_;
   std::size_t taken_ = 0;  // views
-  std::thread thread_;
+  std::unique_ptr<std::thread> thread_;
+  const int process_;  // that made it
 };
 
 }  // namespace gnbv

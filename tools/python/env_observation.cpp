@@ -42,6 +42,22 @@ float bounded(double value) { return static_cast<float>(std::clamp(value, -1.0, 
 
 }  // namespace
 
+std::vector<float> top_view(const OccupancyGrid& grid) {
+  const Key& size = grid.geometry().size();
+  const std::span<const VoxelWord> words = grid.words();
+  const std::size_t columns = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+  const auto levels = static_cast<float>(size[2]);
+  std::vector<float> out(2 * columns);
+  for (std::size_t c = 0; c < columns; ++c) out[2 * c] = -1.0F;
+  for (std::size_t v = 0; v < words.size(); ++v) {
+    float* const column = &out[2 * (v % columns)];
+    const VoxelState state = state_of(words[v]);
+    if (state == VoxelState::unknown) column[1] += 1.0F / levels;
+    if (state == VoxelState::occupied) column[0] = static_cast<float>(v / columns) / levels;
+  }
+  return out;
+}
+
 std::size_t EnvObserver::candidate_count() const {
   std::size_t count = 0;
   for (const double scale : scales_) {

@@ -26,6 +26,10 @@ struct EnvObservation {
   std::vector<float> candidates;   // x kCandidateFeatures; 0 where it may not
 };
 
+/// The map from above, by (y, x, 2): the height of the highest occupied voxel, as a share of the
+/// map's, -1 where there is none, and the share of the column that is unknown.
+std::vector<float> top_view(const OccupancyGrid& grid);
+
 class EnvObserver {
  public:
   EnvObserver(const PlannerConfig& config, const PlannerModel& model, std::vector<double> scales)

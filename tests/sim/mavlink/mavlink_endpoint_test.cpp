@@ -25,7 +25,7 @@ TEST(MavlinkEndpoint, NothingIsSentBeforeAClientSpeaksUnlessItSpeaksFirst) {
   EXPECT_EQ(session.endpoint().counts().sent, 0U) << "taken, and then lost by the sender";
   session.endpoint().count_sent();
   EXPECT_EQ(session.endpoint().counts().sent, 1U);
-  Session first(0.0, kClient);
+  Session first({}, kClient);
   first.step();
   EXPECT_EQ(first.count<Heartbeat>(), 1U);
   EXPECT_EQ(first.count<LocalPositionNed>(), 1U);

@@ -37,9 +37,11 @@ Message said(const VehicleReport& report) {
 /// A client and the vehicle on open ground, in step: wall time is simulation time.
 class Session {
  public:
-  explicit Session(double battery_wh = 0.0, std::optional<Address> partner = std::nullopt)
-      : vehicle_({}, World{}, ViewPose{}, 1, Px4::Start::on_ground),
-        endpoint_(battery_wh, partner) {}
+  explicit Session(const Aboard& aboard = {}, std::optional<Address> partner = std::nullopt,
+                   const ViewPose& start = {})
+      : vehicle_({}, World{}, start, 1, Px4::Start::on_ground),
+        aboard_(aboard),
+        endpoint_(aboard_, partner) {}
 
   template <typename Message>
   void send(const Message& message) {
@@ -68,7 +70,8 @@ class Session {
     listen();
   }
   void listen() {
-    for (const auto& bytes : endpoint_.take_outgoing(now_s(), vehicle_)) {
+    for (const auto& bytes :
+         endpoint_.take_outgoing(now_s(), vehicle_, take_news(aboard_, vehicle_))) {
       ++frames_heard_;
       ReadCounts counts;
       const auto frames = read_frames(bytes, counts);
@@ -130,6 +133,7 @@ class Session {
 
  private:
   Quadrotor vehicle_;
+  Aboard aboard_;
   Endpoint endpoint_;
   std::uint8_t sequence_ = 0;
   std::uint64_t frames_heard_ = 0;

@@ -53,8 +53,8 @@ FrameRecord frames_of(const std::vector<std::string>& names, const TempFolder& t
   return frames;
 }
 
-/// COLMAP sorts the names of all images as bytes, numbers them from 1, and numbers folders (with
-/// --ImageReader.single_camera_per_folder) as it meets them.
+/// COLMAP sorts the names of all images as bytes and numbers them from 1; cameras are numbered as
+/// their images come. Readers of splats look for the last part of a name in images/.
 TEST(ColmapNumbers, AreThoseOfTheSortedImageNames) {
   for (const std::vector<std::string>& names : {std::vector<std::string>{"rgbd", "rgbd-down"},
                                                 {"rgbd.a", "rgbd", "rgbd0", "rgbd_1"},
@@ -72,19 +72,20 @@ TEST(ColmapNumbers, AreThoseOfTheSortedImageNames) {
     }
     std::set<std::string> sorted;
     for (const std::string& name : names) {
-      for (int view = 0; view < 2; ++view) sorted.insert(fmt::format("{}/{:06}.png", name, view));
+      for (int view = 0; view < 2; ++view) sorted.insert(fmt::format("{}_{:06}.png", name, view));
     }
     std::map<std::string, std::size_t> id_of_folder;
     const auto lines = lines_of(temp.path() / "model/sparse/0/images.txt");
     std::size_t line = 0;
     for (const std::string& image : sorted) {
-      const std::string folder = image.substr(0, image.find('/'));
+      const std::string folder = image.substr(0, image.rfind('_'));
       const std::size_t id = id_of_folder.emplace(folder, id_of_folder.size() + 1).first->second;
       const auto cells = cells_of(lines.at(line), ' ');
       EXPECT_EQ(cells[0], fmt::format("{}", line / 2 + 1));
       EXPECT_EQ(cells[9], image);
       EXPECT_EQ(cells[8], fmt::format("{}", id)) << image;
       const auto camera = std::find(names.begin(), names.end(), folder) - names.begin();
+      EXPECT_TRUE(std::filesystem::exists(temp.path() / "model/images" / image)) << image;
       EXPECT_EQ(width_of_id[cells[8]], fmt::format("{}", 100 + camera)) << image;
       line += 2;
     }

@@ -8,6 +8,9 @@ import numpy as np
 import rerun as rr
 from recorded_run import Camera, RecordedRun
 
+if tuple(map(int, rr.__version__.split(".")[:2])) < (0, 28):
+    raise ImportError(f"rerun-sdk 0.28 or newer is needed, this is {rr.__version__}", name="rerun")
+
 MISSION, VIEW = "mission", "view"  # the timelines: seconds, and the number of the view
 
 
