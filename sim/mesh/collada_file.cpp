@@ -102,7 +102,7 @@ class ColladaReader {
                                 : kind == "skew"      ? 7
                                                       : 0;
       if (count == 0) continue;
-      const std::vector<double> v = file_.numbers(step);
+      const std::vector<double> v = file_.singles(step);
       if (v.size() < count) file_.fail(step, fmt::format("<{}> of {} numbers", kind, v.size()));
       T = T * step_of(kind, v);
     }
@@ -208,7 +208,9 @@ class ColladaReader {
     const XmlElement effect = file_.named_by(element.child("instance_effect"), "url");
     const XmlElement technique = effect.child("profile_COMMON").child("technique");
     for (const char* shading : {"phong", "lambert", "blinn", "constant"}) {
-      std::string text = technique.child(shading).child("diffuse").child("color").text();
+      const XmlElement diffuse = technique.child(shading).child("diffuse");
+      if (diffuse.child("texture")) out.rgb = {1.0F, 1.0F, 1.0F};
+      std::string text = diffuse.child("color").text();
       std::replace(text.begin(), text.end(), '\n', ' ');
       std::string_view rest = text;
       std::array<float, 3> rgb{};

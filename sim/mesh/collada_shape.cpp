@@ -18,13 +18,27 @@ std::string trimmed(const std::string& text) {
   return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
+/// A number as assimp read it: whole part, broken part and power of ten each in single precision.
+/// So the paper's structures stay what they were, bit for bit.
+std::optional<double> read_single(std::string_view word) {
+  const std::size_t e = std::min(word.find_first_of("eE"), word.size());
+  const auto value = read_decimal(word.substr(0, e));
+  if (!value) return read_decimal(word);  // inf, for one
+  const double whole = std::trunc(*value);
+  float out = static_cast<float>(whole) + static_cast<float>(*value - whole);
+  if (e == word.size()) return out;
+  const auto power = read_decimal(word.substr(e + 1));
+  if (!power) return std::nullopt;
+  return out * std::pow(10.0F, static_cast<float>(*power));
+}
+
 /// The positions that a <source> gives: its accessor says where each begins.
 std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source) {
   const XmlElement accessor = source.child("technique_common").child("accessor");
   XmlElement array = file.named_by(accessor, "source");
   if (!array || array.name() == "source") array = source.child("float_array");
   if (!array) array = source.child("int_array");
-  const std::vector<double> values = file.numbers(array);
+  const std::vector<double> values = file.singles(array);
   const auto number = [&](const char* key, std::size_t fallback) {
     const auto value = read_decimal(trimmed(accessor.attribute(key).value_or("")));
     return value >= 0.0 && value < 1e9 ? static_cast<std::size_t>(*value) : fallback;
@@ -42,7 +56,7 @@ std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source
   }
   std::vector<Vec3> out;
   for (std::size_t at = offset; at + stride <= values.size(); at += stride) {
-    out.emplace_back(static_cast<float>(values[at + columns[0]]), static_cast<float>(values[at + columns[1]]), static_cast<float>(values[at + columns[2]]));
+    out.emplace_back(values[at + columns[0]], values[at + columns[1]], values[at + columns[2]]);
   }
   const std::size_t announced = number("count", out.size());
   if (out.size() < announced) {
@@ -262,17 +276,18 @@ XmlElement ColladaFile::named_by(const XmlElement& from, const char* attribute) 
   return found != by_id_.end() ? found->second : XmlElement();
 }
 
-std::vector<double> ColladaFile::numbers(const XmlElement& element) const {
+template <typename Read>
+std::vector<double> ColladaFile::words(const XmlElement& element, const Read& read) const {
   std::vector<double> out;
   std::string text = element.text();
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::string_view rest = text;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
-    auto value = read_decimal(word);
+    auto value = read(word);
     if (!value && word.find(',') != word.npos) {  // some write the decimal comma of their country
       std::string pointed(word);
       pointed[word.find(',')] = '.';
-      value = read_decimal(pointed);
+      value = read(pointed);
     }
     if (!value) {
       fail(element, fmt::format("'{}' in <{}> is no number", word.substr(0, 60), element.name()));
@@ -280,6 +295,14 @@ std::vector<double> ColladaFile::numbers(const XmlElement& element) const {
     out.push_back(*value);
   }
   return out;
+}
+
+std::vector<double> ColladaFile::numbers(const XmlElement& element) const {
+  return words(element, read_decimal);
+}
+
+std::vector<double> ColladaFile::singles(const XmlElement& element) const {
+  return words(element, read_single);
 }
 
 void ColladaFile::fail(const XmlElement& at, const std::string& what) const {

@@ -21,9 +21,14 @@ class ColladaFile {
   XmlElement named_by(const XmlElement& from, const char* attribute) const;
   /// The numbers in an element's text.
   std::vector<double> numbers(const XmlElement& element) const;
+  /// The same in single precision: positions and matrices.
+  std::vector<double> singles(const XmlElement& element) const;
   [[noreturn]] void fail(const XmlElement& at, const std::string& what) const;
 
  private:
+  template <typename Read>
+  std::vector<double> words(const XmlElement& element, const Read& read) const;
+
   std::filesystem::path path_;
   XmlTree tree_;
   std::unordered_map<std::string, XmlElement> by_id_;

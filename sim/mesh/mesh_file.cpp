@@ -53,9 +53,10 @@ Matrix4 declare(const MeshFileConfig& config, const DeclaredAxes& declared, Mesh
   reading.declared = declared;
   reading.unit_m = config.unit_m > 0.0 ? config.unit_m : declared.unit_m.value_or(1.0);
   reading.up_axis = config.up_axis != "auto" ? config.up_axis[0] : declared.up_axis.value_or('z');
+  // in single precision as COLLADA's other numbers
+  const double unit_m = config.unit_m > 0.0 ? config.unit_m : static_cast<float>(reading.unit_m);
   Matrix4 T = Matrix4::Identity();
-  T.topLeftCorner<3, 3>() =
-      reading.unit_m * config.scale * R_yaw(config.yaw_rad) * R_z_up(reading.up_axis);
+  T.topLeftCorner<3, 3>() = unit_m * config.scale * R_yaw(config.yaw_rad) * R_z_up(reading.up_axis);
   T.topRightCorner<3, 1>() = config.offset_m;
   return T;
 }
