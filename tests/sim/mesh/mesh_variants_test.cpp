@@ -15,7 +15,7 @@ using namespace test;
 constexpr std::array<std::array<int, 4>, 6> kSides = {
     {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
 
-Vec3 corner(int i) { return {(i >> 2) & 1, (i >> 1) & 1, i & 1}; }
+Vec3 corner(int i) { return Eigen::Vector3i((i >> 2) & 1, (i >> 1) & 1, i & 1).cast<double>(); }
 
 std::string rows(const char* before) {
   std::string out;
@@ -100,7 +100,8 @@ struct Gltf {
 
   std::string bytes() const {
     std::string out;
-    for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) append_bytes(out, x);
+    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+      append_bytes(out, x);
     return out + std::string("\0\1\2\0", 4) + more_bytes;
   }
   std::string json() const {
@@ -239,7 +240,8 @@ TEST_F(MeshVariant, AnStlIsItsTriangles) {
   EXPECT_TRUE(says(cut.warnings[0], {"may be cut off"}));
   std::string bytes(80, 'x');
   append_bytes(bytes, std::uint32_t{1});
-  for (const float x : {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}) append_bytes(bytes, x);
+  for (const float x : {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+    append_bytes(bytes, x);
   append_bytes(bytes, std::uint16_t{0});
   const MeshReading longer = read("t.stl", bytes + "trailer");
   EXPECT_EQ(longer.mesh.faces.size(), 1U);
@@ -355,8 +357,8 @@ TEST_F(MeshVariant, GltfShapesAreAsTheSceneShowsThem) {
  "normalized": true)";
   quantized.root = R"(, "extensionsRequired": ["KHR_mesh_quantization", "KHR_texture_basisu"])";
   quantized.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 24, "byteStride": 8})";
-  for (const std::int16_t x : {0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}) {
-    append_bytes(quantized.more_bytes, x);
+  for (const int x : {0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}) {
+    append_bytes(quantized.more_bytes, static_cast<std::int16_t>(x));
   }
   expect_triangle(quantized, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "quantized");
   quantized.position.resize(quantized.position.find(",\n"));
@@ -396,7 +398,7 @@ TEST_F(MeshVariant, GltfContainersAreReadAsTheyAre) {
            {replaced(whole, "\"count\": 3", "\"count\": 4"), "reaches beyond"},
            {replaced(whole, "\"count\": 3", "\"count\": -1"), "'count' is -1"},
            {replaced(whole, "\"mesh\": 0", "\"mesh\": 7"), "meshes[7], which does not exist"},
-           {whole.substr(0, 200), "line 3 is no JSON"},
+           {whole.substr(0, 200), "is no JSON"},
            {"[]", "no object"}}) {
     EXPECT_TRUE(says(fault("t.gltf", text), {what})) << what;
   }
@@ -408,7 +410,8 @@ TEST_F(MeshVariant, AFileOfAnotherKindIsCalledByItsName) {
     EXPECT_TRUE(says(fault(name, lfs), {"is a Git LFS pointer", "git lfs pull"})) << name;
     EXPECT_TRUE(says(fault(name, "\n<!DOCTYPE html>\n<html></html>"), {"is an HTML page"})) << name;
     EXPECT_TRUE(says(fault(name, "PK\x03\x04rest"), {"is a ZIP archive"})) << name;
-    if (name != std::string("t.dae")) EXPECT_TRUE(says(fault(name, dae()), {"name it .dae"}));
+    if (std::string_view(name) == "t.dae") continue;
+    EXPECT_TRUE(says(fault(name, dae()), {"name it .dae"})) << name;
   }
   for (const char* name : {"t.xyz", "t.pcd", "t.las"}) {
     EXPECT_TRUE(says(fault(name, "1 2 3\n"), {"is a point cloud", "gnbv score"})) << name;

@@ -188,6 +188,15 @@ TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {
   }
 }
 
+TEST_F(Report, AHundredthOfTheFacesMayBeLost) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 99; ++i) text += "f 1 2 3\n";
+  EXPECT_TRUE(of_text(text + "f 1 2 9\n").is_usable());
+  const MeshReport report = of_text(text + "f 1 2 9\nf 1 2\n");
+  EXPECT_FALSE(report.is_usable());
+  EXPECT_TRUE(says(finding(report, "lost").what, "2 of 101 faces"));
+}
+
 TEST_F(Report, EveryFlawHasItsFinding) {
   TriangleMesh mesh = tower({-2, -3, 0});
   const auto faces = mesh.faces;
