@@ -27,7 +27,7 @@ DeclaredAxes declared_by(const XmlElement& root) {
   DeclaredAxes declared = {1.0, 'y'};
   const XmlElement asset = root.child("asset");
   const auto meter = asset.child("unit").attribute("meter");
-  const auto unit_m = read_decimal(first_word_of(meter.value_or("")));
+  const auto unit_m = read_with_comma(first_word_of(meter.value_or("")));
   if (unit_m > 0.0) declared.unit_m = unit_m;
   const std::string axis = first_word_of(asset.child("up_axis").text());
   if (axis == "X_UP" || axis == "Y_UP" || axis == "Z_UP") {

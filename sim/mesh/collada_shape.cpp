@@ -22,7 +22,7 @@ std::string trimmed(const std::string& text) {
 /// So the paper's structures stay what they were, bit for bit.
 std::optional<double> read_single(std::string_view word) {
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());
-  const auto value = read_decimal(word.substr(0, e));
+  const auto value = read_with_comma(word.substr(0, e));
   if (!value) return read_decimal(word);  // inf, for one
   const double whole = std::trunc(*value);
   float out = static_cast<float>(whole) + static_cast<float>(*value - whole);
@@ -276,6 +276,14 @@ XmlElement ColladaFile::named_by(const XmlElement& from, const char* attribute) 
   return found != by_id_.end() ? found->second : XmlElement();
 }
 
+std::optional<double> read_with_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == word.npos) return read_decimal(word);
+  std::string pointed(word);
+  pointed[comma] = '.';
+  return read_decimal(pointed);
+}
+
 template <typename Read>
 std::vector<double> ColladaFile::words(const XmlElement& element, const Read& read) const {
   std::vector<double> out;
@@ -283,12 +291,7 @@ std::vector<double> ColladaFile::words(const XmlElement& element, const Read& re
   std::replace(text.begin(), text.end(), '\n', ' ');
   std::string_view rest = text;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
-    auto value = read(word);
-    if (!value && word.find(',') != word.npos) {  // some write the decimal comma of their country
-      std::string pointed(word);
-      pointed[word.find(',')] = '.';
-      value = read(pointed);
-    }
+    const auto value = read(word);
     if (!value) {
       fail(element, fmt::format("'{}' in <{}> is no number", word.substr(0, 60), element.name()));
     }

@@ -34,6 +34,9 @@ class ColladaFile {
   std::unordered_map<std::string, XmlElement> by_id_;
 };
 
+/// read_decimal() of a word that may have the decimal comma of its writer's country.
+std::optional<double> read_with_comma(std::string_view word);
+
 struct ColladaShape {
   struct Group {
     std::string material;  // the symbol that instances bind

@@ -103,6 +103,7 @@ TEST_F(MeshFile, AColladaUnitIsTheNumberOfItsMeterAttribute) {
   EXPECT_EQ(unit_m("<unit name='meter' meter = ' 2e-3 '/>"), 2e-3);
   EXPECT_EQ(unit_m("<unit name='a meter'\n\tmeter='3'></unit>"), 3.0);
   EXPECT_EQ(unit_m("<!-- <unit meter='7'/> --><unit meter='0.5'/>"), 0.5);
+  EXPECT_EQ(unit_m("<unit meter='0,01'/>"), 0.01);
   EXPECT_EQ(unit_m("<unit name='" + std::string(5'000'000, 'a') + "' meter='0.5'/>"), 0.5);
   for (const char* silent : {"", "<unit name='inch'/>", "<unit meter='0'/>", "<unit meter='-1'/>",
                              "<unit meter='one'/>", "<units x=''/>"}) {

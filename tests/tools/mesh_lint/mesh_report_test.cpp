@@ -189,7 +189,7 @@ TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {
 }
 
 TEST_F(Report, AHundredthOfTheFacesMayBeLost) {
-  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::string text = "v 0 0 1\nv 4 0 1\nv 0 4 5\n";
   for (int i = 0; i < 99; ++i) text += "f 1 2 3\n";
   EXPECT_TRUE(of_text(text + "f 1 2 9\n").is_usable());
   const MeshReport report = of_text(text + "f 1 2 9\nf 1 2\n");
