@@ -53,7 +53,8 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
   const TriangleMesh& mesh = world.structure;
   OutsideView view;
   view.area_m2 = surface_area_m2(mesh);
-  if (mesh.faces.empty()) return view;
+  constexpr double kFarthest_m = 1e12;  // rays of single precision end on the way to 1e18
+  if (mesh.faces.empty() || farthest_m(lint.box_m) > kFarthest_m) return view;
   std::vector<bool> is_two_sided;
   for (std::size_t i = 0; i < lint.is_sound.size(); ++i) {
     if (lint.is_sound[i]) is_two_sided.push_back(lint.is_two_sided[i]);

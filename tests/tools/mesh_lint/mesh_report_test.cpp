@@ -188,6 +188,16 @@ TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {
   }
 }
 
+TEST_F(Report, WhatIsTooLargeForRaysIsAFindingAndNoCrash) {
+  for (const char* far : {"1e15", "1e19", "3e37"}) {
+    const std::string x(far);
+    const MeshReport report =
+        of_text("v 0 0 0\nv " + x + " 0 0\nv 0 " + x + " " + x + "\nv 1 1 1\nf 1 2 3\nf 1 2 4\n");
+    EXPECT_FALSE(report.is_usable()) << far;
+    EXPECT_EQ(finding(report, "place").severity, Severity::error) << far;
+  }
+}
+
 TEST_F(Report, AHundredthOfTheFacesMayBeLost) {
   std::string text = "v 0 0 1\nv 4 0 1\nv 0 4 5\n";
   for (int i = 0; i < 99; ++i) text += "f 1 2 3\n";
