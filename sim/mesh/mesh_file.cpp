@@ -83,10 +83,11 @@ void read_scene(const MeshFileConfig& config, const std::string& extension, Mesh
   reading.warnings = std::move(scene.warnings);
   reading.lost_faces = scene.lost_faces;
   if (reading.mesh.faces.empty()) {
+    const std::string path = config.path + ":";
     const std::string why = reading.warnings.empty() ? "" : reading.warnings.front();
+    const bool is_of_all = why.starts_with(path + " ");  // not of a line
     throw BadInput(
-        fmt::format("{}: holds no faces{}", config.path,
-                    why.empty() ? "" : why.substr(std::min(config.path.size(), why.size()))));
+        fmt::format("{} holds no faces{}", path, is_of_all ? ":" + why.substr(path.size()) : ""));
   }
 }
 
