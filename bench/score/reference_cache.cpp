@@ -66,9 +66,10 @@ std::optional<SurfaceReference> reference_in(std::string_view bytes) {
 }  // namespace
 
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
-                                          const ReferenceConfig& config, int threads) {
+                                          const ReferenceConfig& config, int threads,
+                                          const ReferenceProgress& progress) {
   return cached("surface_reference", key_of(world, config), reference_in, bytes_of,
-                [&] { return make_surface_reference(world, scene, config, threads); });
+                [&] { return make_surface_reference(world, scene, config, threads, progress); });
 }
 
 }  // namespace gnbv

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "bench/score/escape_search.hpp"
@@ -181,15 +182,36 @@ VoxelSet rich_voxels(std::span<const VoxelSurface> finest, std::size_t size,
 
 }  // namespace
 
+ReferenceCost cost_of_reference(const TriangleMesh& structure, const ReferenceConfig& config) {
+  // measured on halls of many storeys, 5 to 20 thousand m2
+  constexpr double kVoxelsPerFace = 1.6;    // a surface cuts more voxels than it has faces of them
+  constexpr double kBytesPerSample = 60.0;  // with the tables of voxels and copies
+  constexpr double kSecondsPerSample = 1.2e-6;
+  const double area_m2 = surface_area_m2(structure);
+  const double spacing_m = spacing_for(structure, config);
+  const double samples = area_m2 / (spacing_m * spacing_m);
+  return {.area_m2 = area_m2,
+          .samples = samples,
+          .voxels = kVoxelsPerFace * area_m2 / (kCoverageSizes_m[0] * kCoverageSizes_m[0]),
+          .bytes = kBytesPerSample * samples,
+          .thread_s = kSecondsPerSample * samples};
+}
+
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
-                                        const ReferenceConfig& config, int threads) {
+                                        const ReferenceConfig& config, int threads,
+                                        const ReferenceProgress& progress) {
   const EscapeSearch search(world.structure, scene, config);
   const Slabs slabs = make_slabs(world.structure, config.floor_z_m);
   const double spacing_m = spacing_for(world.structure, config);
   std::vector<SlabSurface> parts(slabs.faces.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  if (progress) progress(0.0);
   parallel_for(threads, parts.size(), [&](std::size_t slab) {
     parts[slab] = slab_surface(
         slab_samples(world.structure, slabs, slab, config.floor_z_m, spacing_m), search);
+    const std::lock_guard lock(mutex);
+    if (progress) progress(static_cast<double>(++done) / static_cast<double>(parts.size()));
   });
   std::vector<VoxelSurface> all;
   for (const SlabSurface& part : parts) {

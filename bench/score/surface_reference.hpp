@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,17 +62,32 @@ struct SurfaceReference {
   bool operator==(const SurfaceReference&) const = default;
 };
 
+/// What it takes to find a reference, about, from the area alone.
+struct ReferenceCost {
+  double area_m2 = 0.0;  // above the floor and below
+  double samples = 0.0;
+  double voxels = 0.0;  // of the finest size
+  double bytes = 0.0;   // of memory at most
+  double thread_s = 0.0;
+};
+ReferenceCost cost_of_reference(const TriangleMesh& structure, const ReferenceConfig& config);
+
+/// Told the share that is done, from one thread at a time.
+using ReferenceProgress = std::function<void(double share_done)>;
+
 /// Deterministic at any number of threads. The area of the surface in a voxel is exact
 /// (surface_pieces.hpp); which part of it sees out is estimated by its samples, and what share of
 /// the directions is open by `directions`, evenly spread, of which none but the last few decide on
 /// most points. Normals are tilted by two degrees. The ground never blocks.
 SurfaceReference make_surface_reference(const World& world, const RayScene& scene,
-                                        const ReferenceConfig& config, int threads);
+                                        const ReferenceConfig& config, int threads,
+                                        const ReferenceProgress& progress = {});
 
 /// The same from the cache (content_cache.hpp), where it is kept by the geometry of the structure
-/// and of what stands around it, and by the config.
+/// and of what stands around it, and by the config; which tells no progress.
 SurfaceReference cached_surface_reference(const World& world, const RayScene& scene,
-                                          const ReferenceConfig& config, int threads);
+                                          const ReferenceConfig& config, int threads,
+                                          const ReferenceProgress& progress = {});
 
 /// What coverage counts, for programs: "outside" or "area_samples".
 std::string reference_name(std::size_t area_samples);

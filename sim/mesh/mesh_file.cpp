@@ -6,7 +6,8 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/file_kind.hpp"
+#include "sim/mesh/mesh_scene.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
@@ -38,58 +39,56 @@ void check_file(const std::string& path, const std::string& extension) {
   if (std::filesystem::file_size(path, ignored) == 0) {
     throw BadInput(fmt::format("{}: is empty", path));
   }
+  if (const std::string what = what_it_is_instead(path, extension); !what.empty()) {
+    throw BadInput(fmt::format("{}: {}", path, what));
+  }
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
     throw BadInput(fmt::format("{}: '{}' is no known mesh format, only {} are", path, extension,
                                fmt::join(kFormats, ", ")));
   }
 }
 
-std::string_view without_blanks(std::string_view text) {
-  return text.substr(std::min(text.find_first_not_of(" \t\v\f\r\n"), text.size()));
-}
-
-/// The number in meter="0.01"; nothing where the tag has none.
-std::optional<double> meter_of(std::string_view tag) {
-  constexpr std::string_view kName = "meter";
-  for (auto at = tag.find(kName); at != tag.npos; at = tag.find(kName, at + 1)) {
-    std::string_view rest = without_blanks(tag.substr(at + kName.size()));
-    if (!rest.starts_with('=')) continue;  // it is the value of another attribute
-    rest = without_blanks(rest.substr(1));
-    if (!rest.starts_with('"') && !rest.starts_with('\'')) continue;
-    rest = without_blanks(rest.substr(1));
-    return read_decimal(rest.substr(0, rest.find_first_of(" \t\r\n\"'")));
-  }
-  return std::nullopt;
-}
-
-DeclaredAxes declared_by(const std::string& path, const std::string& extension) {
-  if (extension == ".dae") return declared_by_collada(read_file(path));
-  if (extension == ".gltf" || extension == ".glb") return {1.0, 'y'};
-  return {};
-}
-
-/// From what a reader delivers to the world. Of a COLLADA file assimp has applied the unit, and has
-/// turned it to y up unless the config names the axis.
-Matrix4 T_world_read(const MeshFileConfig& config, const MeshReading& reading) {
-  const bool is_collada = extension_of(config.path) == ".dae";
-  const double unit_m = reading.unit_m / (is_collada ? reading.declared.unit_m.value() : 1.0);
-  const char up = is_collada && config.up_axis == "auto" ? 'y' : reading.up_axis;
+/// Fills all but the mesh, of which it returns what makes world coordinates.
+Matrix4 declare(const MeshFileConfig& config, const DeclaredAxes& declared, MeshReading& reading) {
+  reading.declared = declared;
+  reading.unit_m = config.unit_m > 0.0 ? config.unit_m : declared.unit_m.value_or(1.0);
+  reading.up_axis = config.up_axis != "auto" ? config.up_axis[0] : declared.up_axis.value_or('z');
+  // in single precision as COLLADA's other numbers
+  const double unit_m = config.unit_m > 0.0 ? config.unit_m : static_cast<float>(reading.unit_m);
   Matrix4 T = Matrix4::Identity();
-  T.topLeftCorner<3, 3>() = unit_m * config.scale * R_yaw(config.yaw_rad) * R_z_up(up);
+  T.topLeftCorner<3, 3>() = unit_m * config.scale * R_yaw(config.yaw_rad) * R_z_up(reading.up_axis);
   T.topRightCorner<3, 1>() = config.offset_m;
   return T;
 }
 
-TriangleMesh read_polygons(const MeshFileConfig& config, const Matrix4& T_world_file,
-                           MeshReading& reading) {
-  const bool is_obj = extension_of(config.path) == ".obj";
+void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& reading) {
+  const Matrix4 T_world_file = declare(config, {}, reading);
   PolygonMesh polygons = (is_obj ? read_obj : read_ply)(config.path, reading.warnings);
-  if (polygons.face_ends.empty()) throw BadInput(fmt::format("{}: holds no faces", config.path));
+  if (polygons.face_ends.empty()) {
+    throw BadInput(fmt::format("{}: {}", config.path, no_faces_text(polygons.vertices.size())));
+  }
   for (Vec3& p : polygons.vertices) {
     p = (T_world_file.topLeftCorner<3, 3>() * p + T_world_file.topRightCorner<3, 1>()).eval();
   }
   reading.not_finite = std::move(polygons.not_finite);
-  return triangulated(std::move(polygons));
+  reading.lost_faces = polygons.lost_faces;
+  reading.mesh = triangulated(std::move(polygons));
+}
+
+void read_scene(const MeshFileConfig& config, const std::string& extension, MeshReading& reading) {
+  MeshScene scene = (extension == ".stl"   ? read_stl
+                     : extension == ".dae" ? read_collada
+                                           : read_gltf)(config.path);
+  reading.mesh = assembled(scene, declare(config, scene.declared, reading), config.path);
+  reading.warnings = std::move(scene.warnings);
+  reading.lost_faces = scene.lost_faces;
+  if (reading.mesh.faces.empty()) {
+    const std::string path = config.path + ":";
+    const std::string why = reading.warnings.empty() ? "" : reading.warnings.front();
+    const bool is_of_all = why.starts_with(path + " ");  // not of a line
+    throw BadInput(
+        fmt::format("{} holds no faces{}", path, is_of_all ? ":" + why.substr(path.size()) : ""));
+  }
 }
 
 }  // namespace
@@ -99,13 +98,11 @@ MeshReading read_mesh(const MeshFileConfig& config) {
   const std::string extension = extension_of(config.path);
   check_file(config.path, extension);
   MeshReading reading;
-  reading.declared = declared_by(config.path, extension);
-  reading.unit_m = config.unit_m > 0.0 ? config.unit_m : reading.declared.unit_m.value_or(1.0);
-  reading.up_axis =
-      config.up_axis != "auto" ? config.up_axis[0] : reading.declared.up_axis.value_or('z');
-  const Matrix4 T_world = T_world_read(config, reading);
-  const bool is_own = extension == ".obj" || extension == ".ply";
-  reading.mesh = is_own ? read_polygons(config, T_world, reading) : import_mesh(config, T_world);
+  if (extension == ".obj" || extension == ".ply") {
+    read_polygons(config, extension == ".obj", reading);
+  } else {
+    read_scene(config, extension, reading);
+  }
   const auto& vertices = reading.mesh.vertices_m;
   const auto bad =
       std::find_if(vertices.begin(), vertices.end(), [](const Vec3f& p) { return !p.allFinite(); });
@@ -138,23 +135,6 @@ TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* w
     warnings->insert(warnings->end(), reading.warnings.begin(), reading.warnings.end());
   }
   return std::move(mesh);
-}
-
-DeclaredAxes declared_by_collada(std::string_view content) {
-  const std::string_view asset = content.substr(0, content.find("</asset>"));
-  DeclaredAxes declared = {1.0, 'y'};  // COLLADA 1.4.1: the defaults of unit and up_axis
-  if (const auto at = asset.find("<unit"); at != asset.npos) {
-    const auto unit_m = meter_of(asset.substr(at, asset.find('>', at) - at));
-    if (unit_m > 0.0) declared.unit_m = unit_m;
-  }
-  constexpr std::string_view kUp = "<up_axis>";
-  if (const auto at = asset.find(kUp); at != asset.npos) {
-    const std::string_view axis = without_blanks(asset.substr(at + kUp.size())).substr(0, 4);
-    if (axis == "X_UP" || axis == "Y_UP" || axis == "Z_UP") {
-      declared.up_axis = static_cast<char>(axis[0] - 'X' + 'x');
-    }
-  }
-  return declared;
 }
 
 Eigen::Matrix3d R_z_up(char up) {

@@ -1,4 +1,4 @@
-// Mesh files: OBJ and PLY by our own readers, STL, COLLADA and glTF by assimp.
+// Mesh files: OBJ, PLY, STL, COLLADA and glTF, by our own readers.
 #pragma once
 
 #include <filesystem>
@@ -37,6 +37,7 @@ struct MeshReading {
   char up_axis = 'z';      // of the file, as used: x, y or z
   DeclaredAxes declared;
   std::vector<std::string> warnings;  // what is left out, a sentence each
+  std::size_t lost_faces = 0;         // that could not be used; flat ones are in the mesh
 };
 
 /// Reads .obj, .ply, .stl, .dae, .gltf and .glb, places instances and triangulates. The vertices of
@@ -50,16 +51,9 @@ MeshReading read_mesh(const MeshFileConfig& config);
 /// Throws BadInput, too, when no face is left or a coordinate is NaN or infinite.
 TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* warnings = nullptr);
 
-/// Reads .stl, .dae, .gltf and .glb by assimp, of whose coordinates `T_world_imported` makes world
-/// coordinates. (It delivers COLLADA in metres, with y up unless the config names the axis.)
-TriangleMesh import_mesh(const MeshFileConfig& config, const Eigen::Matrix4d& T_world_imported);
-
 /// Writes .obj (with its .mtl beside it), .ply (binary, faces coloured) or .glb (turned to y up) by
 /// extension, by rename. Throws BadInput for any other.
 void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
-
-/// Of a COLLADA text; its specification says metres with y up where it is silent.
-DeclaredAxes declared_by_collada(std::string_view content);
 
 /// Turns the axis `up` (x, y or z) to z; the right-handed turns of COLLADA 1.4's up_axis table.
 Eigen::Matrix3d R_z_up(char up);

@@ -89,9 +89,10 @@ double area_below_m2(const TriangleMesh& mesh, std::size_t face, double z_m) {
   return area_m2(p) - area_m2({p[2], on_plane(p[1], p[2]), on_plane(p[0], p[2])});
 }
 
-std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
-  constexpr double kNearZero = 0.02;    // of the largest extent
+std::optional<LikelyUp> likely_up_axis(const TriangleMesh& mesh, char up) {
+  constexpr double kNearZero = 0.02;    // of an axis's extent
   constexpr double kLayer = 0.01;       // of it, above the lower end
+  constexpr double kRounding = 1e-6;    // of the largest extent
   constexpr double kMinContact = 0.05;  // of the area
   constexpr double kDominance = 3.0;    // over the other axes
   Box3 box;
@@ -107,22 +108,26 @@ std::optional<char> likely_up_axis(const TriangleMesh& mesh) {
     area += faces.back().second;
   }
   if (faces.empty()) return std::nullopt;
-  const double largest = box.sizes().maxCoeff();
-  const auto begins_at_zero = box.min().cwiseAbs().array() <= kNearZero * largest;
+  const double rounding = kRounding * box.sizes().maxCoeff();
+  const Eigen::Array3d extent = box.sizes().array();
+  const Eigen::Array<bool, 3, 1> begins_at_zero =
+      box.min().cwiseAbs().array() <= kNearZero * extent + rounding;
+  if (begins_at_zero[up - 'x']) return LikelyUp{up, true};
   Vec3 contact = Vec3::Zero();  // share of the area within the lowest layer
   for (const auto& [face_box, face_area] : faces) {
-    const auto is_low = face_box.max().array() <= box.min().array() + kLayer * largest;
+    const auto is_low = face_box.max().array() <= box.min().array() + kLayer * extent + rounding;
     contact += is_low.select(Vec3::Constant(face_area / area), 0.0).matrix();
   }
   constexpr std::array kAxes = {'x', 'y', 'z'};
   const bool some_begin = begins_at_zero.any();
-  std::optional<char> found;
+  std::optional<LikelyUp> found;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const char axis = kAxes[static_cast<std::size_t>(a)];
-    if (begins_at_zero.count() == 1 && begins_at_zero[a]) return axis;
+    if (begins_at_zero.count() == 1 && begins_at_zero[a]) return LikelyUp{axis, true};
     if (some_begin && !begins_at_zero[a]) continue;
     const double others = std::max(contact[(a + 1) % 3], contact[(a + 2) % 3]);
-    if (contact[a] >= kMinContact && contact[a] >= kDominance * others) found = axis;
+    if (contact[a] >= kMinContact && contact[a] >= kDominance * others)
+      found = LikelyUp{axis, false};
   }
   return found;
 }

@@ -37,10 +37,16 @@ struct MeshLint {
 
 MeshLint lint_mesh(const TriangleMesh& mesh);
 
-/// The axis (x, y or z) along which the structure most likely stands: the only one whose
-/// coordinates begin at 0, or the one with by far the most surface flat on its lower end; of sound
-/// faces. Nothing when neither tells.
-std::optional<char> likely_up_axis(const TriangleMesh& mesh);
+/// The axis (x, y or z) along which a structure stands, by its shape.
+struct LikelyUp {
+  char axis = 'z';
+  bool is_sure = false;  // by more than where its surface is flat
+};
+
+/// Of the sound faces: `up`, which is taken for it, where its coordinates begin at 0; else the only
+/// axis whose do; else, without being sure, the one with by far the most surface flat on its lower
+/// end. Each axis is measured by its own extent. Nothing when none tells.
+std::optional<LikelyUp> likely_up_axis(const TriangleMesh& mesh, char up);
 
 /// Area of the part of a face that lies below z_m.
 double area_below_m2(const TriangleMesh& mesh, std::size_t face, double z_m);

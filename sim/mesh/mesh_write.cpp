@@ -1,16 +1,11 @@
 // write_mesh() of sim/mesh/mesh_file.hpp.
-#include <assimp/material.h>
-#include <assimp/mesh.h>
-#include <assimp/scene.h>
-
-#include <assimp/Exporter.hpp>
-#include <cerrno>
 #include <iterator>
 #include <unordered_map>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/image.hpp"
+#include "sim/mesh/glb_write.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "sim/mesh/ply_write.hpp"
 
@@ -62,72 +57,47 @@ std::string ply_bytes_of(const TriangleMesh& mesh) {
                    PlyFaces{.corners = mesh.faces, .colours = colours});
 }
 
-/// The faces of one material, their vertices numbered in order of first use; null without faces.
-aiMesh* export_part(const TriangleMesh& mesh, std::size_t material) {
-  std::unordered_map<std::uint32_t, unsigned> index_of;
-  std::vector<std::uint32_t> used;
-  std::vector<std::array<unsigned, 3>> faces;
+/// A primitive of the faces of one material, their vertices numbered in order of first use; null
+/// without faces.
+GlbBuffer::Json glb_part(const TriangleMesh& mesh, std::size_t material, GlbBuffer& buffer) {
+  std::unordered_map<std::uint32_t, std::uint32_t> index_of;
+  std::vector<std::uint32_t> used, corners;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     if (material_of(mesh, i) != material) continue;
-    auto& face = faces.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (const std::uint32_t vertex : mesh.faces[i]) {
       const auto [entry, is_new] =
-          index_of.try_emplace(mesh.faces[i][k], static_cast<unsigned>(used.size()));
-      if (is_new) used.push_back(mesh.faces[i][k]);
-      face[k] = entry->second;
+          index_of.try_emplace(vertex, static_cast<std::uint32_t>(used.size()));
+      if (is_new) used.push_back(vertex);
+      corners.push_back(entry->second);
     }
   }
-  if (faces.empty()) return nullptr;
-  auto* out = new aiMesh;  // assimp's scene deletes what hangs on it
-  out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  out->mMaterialIndex = static_cast<unsigned>(material);
-  out->mName = mesh.materials[material].name;
-  out->mNumVertices = static_cast<unsigned>(used.size());
-  out->mVertices = new aiVector3D[used.size()];
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const Vec3f& p = mesh.vertices_m[used[i]];
-    out->mVertices[i] = aiVector3D(p.x(), p.z(), -p.y());  // glTF is y up
-  }
-  out->mNumFaces = static_cast<unsigned>(faces.size());
-  out->mFaces = new aiFace[faces.size()];
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    out->mFaces[i].mNumIndices = 3;
-    out->mFaces[i].mIndices = new unsigned[3]{faces[i][0], faces[i][1], faces[i][2]};
-  }
-  return out;
+  if (corners.empty()) return nullptr;
+  const std::size_t positions = buffer.add_positions(
+      used.size(), [&](std::size_t i) { return y_up(mesh.vertices_m[used[i]]); });
+  const std::size_t indices =
+      buffer.add(corners.size(), "SCALAR", GlbBuffer::kUnsignedInt,
+                 [&](std::size_t i) { append_bytes(buffer.bytes, corners[i]); });
+  return {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", material}};
 }
 
-void write_glb(const TriangleMesh& mesh, const std::filesystem::path& path) {
-  aiScene scene;
-  scene.mNumMaterials = static_cast<unsigned>(mesh.materials.size());
-  scene.mMaterials = new aiMaterial*[mesh.materials.size()];
-  std::vector<aiMesh*> parts;
+std::string glb_bytes_of(const TriangleMesh& mesh) {
+  using Json = GlbBuffer::Json;
+  GlbBuffer buffer;
+  Json materials = Json::array(), primitives = Json::array();
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    const Material& material = mesh.materials[i];
-    auto* out = scene.mMaterials[i] = new aiMaterial;
-    const aiString name(material.name);
-    out->AddProperty(&name, AI_MATKEY_NAME);
-    const aiColor4D rgba(material.rgb[0], material.rgb[1], material.rgb[2], 1.0F);
-    out->AddProperty(&rgba, 1, AI_MATKEY_BASE_COLOR);
-    out->AddProperty(&rgba, 1, AI_MATKEY_COLOR_DIFFUSE);
-    if (aiMesh* part = export_part(mesh, i)) parts.push_back(part);
+    const auto& [r, g, b] = mesh.materials[i].rgb;
+    materials.push_back({{"name", mesh.materials[i].name},
+                         {"pbrMetallicRoughness",
+                          {{"baseColorFactor", {r, g, b, 1.0F}}, {"metallicFactor", 0.0}}}});
+    if (Json part = glb_part(mesh, i, buffer); !part.is_null()) primitives.push_back(part);
   }
-  scene.mRootNode = new aiNode("structure");
-  scene.mNumMeshes = scene.mRootNode->mNumMeshes = static_cast<unsigned>(parts.size());
-  scene.mMeshes = new aiMesh*[parts.size()];
-  scene.mRootNode->mMeshes = new unsigned[parts.size()];
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    scene.mMeshes[i] = parts[i];
-    scene.mRootNode->mMeshes[i] = i;
-  }
-  write_file_atomically(path, [&](const std::filesystem::path& part) {
-    Assimp::Exporter exporter;
-    errno = 0;
-    if (exporter.Export(&scene, "glb2", part.string()) != aiReturn_SUCCESS) {
-      if (errno != 0) refuse_to_write(path, errno);
-      throw BadInput(fmt::format("{}: cannot write: {}", path.string(), exporter.GetErrorString()));
-    }
-  });
+  return glb_bytes({{"asset", {{"version", "2.0"}, {"generator", "gnbv"}}},
+                    {"scene", 0},
+                    {"scenes", {{{"nodes", {0}}}}},
+                    {"nodes", {{{"name", "structure"}, {"mesh", 0}}}},
+                    {"meshes", {{{"name", "structure"}, {"primitives", primitives}}}},
+                    {"materials", materials}},
+                   buffer);
 }
 
 }  // namespace
@@ -141,7 +111,7 @@ void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
   } else if (extension == ".ply") {
     write_file_atomically(path, ply_bytes_of(mesh));
   } else if (extension == ".glb") {
-    write_glb(mesh, path);
+    write_file_atomically(path, glb_bytes_of(mesh));
   } else {
     throw BadInput(fmt::format("{}: meshes are written as .obj, .ply or .glb, not '{}'",
                                path.string(), extension));

@@ -18,11 +18,37 @@ namespace gnbv {
 namespace {
 
 /// Statements of the OBJ specification that we do not need.
-constexpr std::array<std::string_view, 36> kIgnored = {
-    "vp",   "s",    "l",     "p",     "o",        "g",        "mg",   "cstype", "deg",
-    "bmat", "step", "curv",  "curv2", "surf",     "parm",     "trim", "hole",   "scrv",
-    "sp",   "end",  "con",   "bevel", "c_interp", "d_interp", "lod",  "maplib", "usemap",
-    "call", "csh",  "ctech", "stech", "bsp",      "bzp",      "cdc",  "cdp",    "res"};
+constexpr std::array<std::string_view, 35> kIgnored = {
+    "vt",     "vn",  "vp",    "s",     "l",     "p",        "o",          "g",        "mg",
+    "cstype", "deg", "bmat",  "step",  "curv",  "curv2",    "parm",       "trim",     "hole",
+    "scrv",   "sp",  "end",   "con",   "bevel", "c_interp", "d_interp",   "lod",      "maplib",
+    "usemap", "csh", "ctech", "stech", "cdc",   "res",      "shadow_obj", "trace_obj"};
+/// Those that hold surface: free forms, patches and other files.
+constexpr std::array<std::string_view, 5> kUnread = {"surf", "bsp", "bzp", "cdp", "call"};
+
+bool is_one_of(std::span<const std::string_view> words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Whether a word may be a statement that some program made up: no damaged vertex begins so.
+bool is_keyword(std::string_view word) {
+  return word.size() >= 2 && std::all_of(word.begin(), word.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+         });
+}
+
+/// Where a comment begins: at a # that begins a word; the length without one. A name may hold one.
+std::size_t comment_in(std::string_view line) {
+  std::string_view rest = line;
+  const std::string_view keyword = take_word(rest);
+  constexpr std::array<std::string_view, 4> kOfNames = {"usemtl", "mtllib", "o", "g"};
+  if (is_one_of(kOfNames, keyword)) return line.size();
+  if (keyword.starts_with('#')) return 0;
+  for (std::size_t at = 0; (at = line.find('#', at)) != line.npos; ++at) {
+    if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') return at;
+  }
+  return line.size();
+}
 
 /// Vertex of a face corner "v", "v/vt", "v//vn" or "v/vt/vn": counted from 1, or from the last
 /// vertex so far when negative; 0 is no vertex.
@@ -64,7 +90,8 @@ class ObjMaterials {
   void read_library(std::istream& file, const std::filesystem::path& library) {
     std::vector<std::string_view> words;
     std::string material;
-    for (std::string line; std::getline(file, line);) {
+    LineReader lines(file);
+    for (std::string_view line; lines.next(line);) {
       split(line, words);
       if (words.size() < 2) continue;
       const Words values = Words(words).subspan(1);
@@ -101,7 +128,8 @@ class ObjMaterials {
   std::vector<Material> materials() const {
     std::vector<Material> out(index_of_.size());
     for (const auto& [name, index] : index_of_) {
-      const auto found = rgb_of_.find(name);
+      auto found = rgb_of_.find(name);
+      if (found == rgb_of_.end()) found = rgb_of_.find(name.substr(0, name.find(" #")));
       out[index] = {.name = name, .rgb = found != rgb_of_.end() ? found->second : kDefaultColour};
     }
     return out;
@@ -136,23 +164,24 @@ class ObjReader {
   PolygonMesh read() {
     std::string statement;
     bool goes_on = false;  // in the next line
-    std::size_t number = 0;
-    for (std::string line; std::getline(file_, line);) {
-      ++number;
+    LineReader lines(file_);
+    for (std::string_view line; lines.next(line);) {
       if (!goes_on) {
-        line_ = number;
+        line_ = lines.number();
         statement.clear();
       }
-      while (line.ends_with('\r')) line.pop_back();
-      goes_on = line.ends_with('\\');
-      if (goes_on) line.pop_back();
       statement += line;
+      const std::size_t comment = comment_in(statement);
+      goes_on = comment == statement.size() && statement.ends_with('\\');
+      statement.resize(goes_on ? comment - 1 : comment);
       if (!goes_on) add_statement(statement);
     }
     need_whole(file_, path_);
     if (goes_on) add_statement(statement);
     warn(unreadable_, "unreadable lines");
     warn(impossible_, "faces of vertices that do not exist");
+    warn(unread_, "surfaces that are no polygons");
+    out_.lost_faces = impossible_.count + broken_faces_ + unread_.count;
     if (!out_.face_ends.empty()) out_.materials = materials_.materials();
     return std::move(out_);
   }
@@ -161,21 +190,19 @@ class ObjReader {
   void add_statement(std::string_view line) {
     if (has_control_bytes(line)) return drop_line();
     split(line, words_);
-    if (words_.empty() || words_[0].starts_with('#')) return;
+    if (words_.empty()) return;
     const std::string_view keyword = words_[0];
     const Words values = Words(words_).subspan(1);
     if (keyword == "v") return add_vertex(values);
     if (keyword == "f" || keyword == "fo") return add_face(values);
-    if (keyword == "vt" || keyword == "vn") {
-      const bool is_readable =
-          !values.empty() && std::all_of(values.begin(), values.end(),
-                                         [](auto word) { return read_decimal(word).has_value(); });
-      if (!is_readable) return drop_line();
-    } else if (keyword == "usemtl" || keyword == "mtllib") {
+    if (keyword == "usemtl" || keyword == "mtllib") {
       if (values.empty()) return drop_line();
-      keyword == "usemtl" ? materials_.use(joined(values)) : use_library(joined(values));
-    } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {
-      return drop_line();
+      keyword == "usemtl" ? materials_.use(joined(values)) : use_libraries(values);
+    } else if (is_one_of(kUnread, keyword)) {
+      unread_.add(line_);
+    } else if (!is_one_of(kIgnored, keyword)) {
+      if (!is_keyword(keyword)) return drop_line();
+      unreadable_.add(line_);
     }
     settle(false);
   }
@@ -205,16 +232,32 @@ class ObjReader {
       out_.corners.resize(begin);
       as.add(line_);
     };
+    const auto drop_broken = [&] {
+      ++broken_faces_;
+      drop(unreadable_);
+    };
     for (const std::string_view value : values) {
       const auto corner = corner_of(value);
-      if (!corner) return drop(unreadable_);
+      if (!corner) return drop_broken();
       const long long vertex = *corner < 0 ? count + 1 + *corner : *corner;
       if (vertex < 1 || vertex > count) return drop(impossible_);
       out_.corners.push_back(static_cast<std::uint32_t>(vertex - 1));
     }
-    if (values.size() < 3) return drop(unreadable_);
+    if (values.size() < 3) return drop_broken();
     out_.face_ends.push_back(as_index(out_.corners.size(), path_.string(), "corners"));
     out_.face_material.push_back(materials_.index_for_face());
+  }
+
+  /// One name with blanks in it or, where there is no such file, several.
+  void use_libraries(Words names) {
+    std::error_code ignored;
+    const bool are_several = !mtl_ && names.size() > 1 &&
+                             !std::filesystem::exists(path_.parent_path() / joined(names), ignored);
+    if (!are_several) return use_library(joined(names));
+    for (const std::string_view name : names) {
+      if (name.starts_with('#')) break;
+      use_library(std::string(name));
+    }
   }
 
   void use_library(const std::string& name) {
@@ -269,6 +312,8 @@ class ObjReader {
   std::size_t doubt_line_ = 0;    // first unreadable line beside a vertex; 0 = none
   Dropped unreadable_;
   Dropped impossible_;
+  Dropped unread_;
+  std::size_t broken_faces_ = 0;  // of the unreadable lines
 };
 
 }  // namespace

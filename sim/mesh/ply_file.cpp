@@ -1,59 +1,16 @@
 // The PLY readers of sim/mesh/polygon_mesh.hpp. Our own, since assimp's (5.2.4) crashes on sound
 // binary files and does not know the colours of faces.
 #include <algorithm>
-#include <bit>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "sim/core/file.hpp"
-#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/ply_reader.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-template <typename T>
-double number_at(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof(T));
-  return static_cast<double>(value);
-}
-
-struct PlyType {
-  std::string_view name, other_name;
-  std::size_t bytes;
-  double full;  // level of a colour channel
-  double (*number_at)(const char* bytes);
-};
-
-constexpr std::array kTypes = {
-    PlyType{"char", "int8", 1, 255.0, number_at<std::int8_t>},
-    PlyType{"uchar", "uint8", 1, 255.0, number_at<std::uint8_t>},
-    PlyType{"short", "int16", 2, 65535.0, number_at<std::int16_t>},
-    PlyType{"ushort", "uint16", 2, 65535.0, number_at<std::uint16_t>},
-    PlyType{"int", "int32", 4, 4294967295.0, number_at<std::int32_t>},
-    PlyType{"uint", "uint32", 4, 4294967295.0, number_at<std::uint32_t>},
-    PlyType{"float", "float32", 4, 1.0, number_at<float>},
-    PlyType{"double", "float64", 8, 1.0, number_at<double>},
-};
-
-struct PlyProperty {
-  std::string name;
-  const PlyType* type = nullptr;
-  const PlyType* count_type = nullptr;  // of a list; null for a single number
-};
-
-struct PlyElement {
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<PlyProperty> properties;
-};
-
-using PlyItem = std::vector<std::vector<double>>;  // the numbers of each property, and one 0 more
-using Columns = std::array<std::size_t, 3>;        // into it
+using Columns = std::array<std::size_t, 3>;  // into an item
 
 /// The properties of these names that are no lists, the last of each name; or the 0.
 Columns columns_of(const PlyElement& element, const std::array<std::string_view, 3>& names) {
@@ -86,148 +43,19 @@ void add_colour(const PlyItem& item, const PlyElement& element, const Columns& c
   colours.push_back(rgb);
 }
 
-/// A PLY file: a header, and the items of the elements that it announces, in text or in bytes of
-/// either order.
-class PlyFile {
- public:
-  /// Reads the header.
-  explicit PlyFile(const std::filesystem::path& path) : path_(path.string()), in_(open_file(path)) {
-    static_assert(std::endian::native == std::endian::little);
-    std::error_code ignored;  // of a pipe
-    const auto size = std::filesystem::file_size(path, ignored);
-    if (!ignored) bytes_ = size;
-    read_header();
-  }
-
-  const std::string& path() const { return path_; }
-  const std::vector<PlyElement>& elements() const { return elements_; }
-
-  /// Calls use(item) for each item of the next element.
-  template <typename Use>
-  void for_each_item(const PlyElement& element, const Use& use) {
-    const std::size_t properties = element.properties.size();
-    if (properties == 0) return;
-    PlyItem item(properties + 1, {0.0});
-    for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (std::size_t k = 0; k < properties; ++k) {
-        const PlyProperty& property = element.properties[k];
-        double count = 1.0;
-        if (property.count_type != nullptr) {
-          take_numbers(*property.count_type, 1.0, item[k]);
-          count = item[k][0];
-        }
-        take_numbers(*property.type, count, item[k]);
-      }
-      use(item);
+Columns xyz_of(const PlyFile& ply, const PlyElement& element) {
+  constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
+  const Columns xyz = columns_of(element, kNames);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (xyz[k] == element.properties.size()) {
+      ply.fail(fmt::format("its vertices have no property '{}'", kNames[k]));
     }
   }
-
-  /// How many items are worth reserving, whatever the header says.
-  std::size_t most_items(const PlyElement& element) const {
-    return std::min<std::uint64_t>(element.count,
-                                   bytes_ / std::max<std::size_t>(element.properties.size(), 1));
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw BadInput(fmt::format("{}: {}", path_, what));
-  }
-
-  void read_header() {
-    std::vector<std::string_view> words;
-    std::getline(in_, line_);
-    need_whole(in_, path_);
-    split(line_, words);
-    if (words.size() != 1 || words[0] != "ply") fail("is no PLY file: its first line is not 'ply'");
-    while (std::getline(in_, line_)) {
-      split(line_, words);
-      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-      if (words[0] == "end_header") return;
-      if (!read_declaration(words)) fail(fmt::format("its header has a bad '{}' line", words[0]));
-    }
-    need_whole(in_, path_);
-    fail("its header has no end_header");
-  }
-
-  bool read_declaration(Words words) {
-    const std::size_t n = words.size();
-    if (words[0] == "format" && n >= 2) {
-      is_text_ = words[1] == "ascii";
-      is_big_endian_ = words[1] == "binary_big_endian";
-      return is_text_ || is_big_endian_ || words[1] == "binary_little_endian";
-    }
-    if (words[0] == "element" && n == 3) {
-      PlyElement& element = elements_.emplace_back();
-      element.name = words[1];
-      const char* const last = words[2].data() + words[2].size();
-      const auto [end, error] = std::from_chars(words[2].data(), last, element.count);
-      return error == std::errc() && end == last;
-    }
-    if (words[0] != "property" || elements_.empty()) return false;
-    const bool is_list = n == 5 && words[1] == "list";
-    if (n != 3 && !is_list) return false;
-    elements_.back().properties.push_back(
-        {std::string(words[n - 1]), type_of(words[n - 2]), is_list ? type_of(words[2]) : nullptr});
-    return true;
-  }
-
-  const PlyType* type_of(std::string_view name) const {
-    for (const PlyType& type : kTypes) {
-      if (name == type.name || name == type.other_name) return &type;
-    }
-    fail(fmt::format("its header names the unknown type '{}'", name));
-  }
-
-  /// Reads in pieces, since a wrong count may be of any size.
-  void take_numbers(const PlyType& type, double count, std::vector<double>& numbers) {
-    std::array<char, 16 * sizeof(double)> bytes;
-    numbers.clear();
-    std::size_t piece = 1;
-    auto left = static_cast<std::size_t>(std::ceil(count > 0.0 ? std::min(count, 1e18) : 0.0));
-    for (; left > 0; left -= piece) {
-      if (is_text_) {
-        numbers.push_back(take_number());
-        continue;
-      }
-      piece = std::min<std::size_t>(left, 16);
-      if (!in_.read(bytes.data(), static_cast<std::streamsize>(piece * type.bytes))) end_early();
-      for (std::size_t i = 0; i < piece; ++i) {
-        char* const first = bytes.data() + i * type.bytes;
-        if (is_big_endian_) std::reverse(first, first + type.bytes);
-        numbers.push_back(type.number_at(first));
-      }
-    }
-  }
-
-  double take_number() {
-    std::string_view word;
-    while ((word = take_word(rest_)).empty()) {
-      if (!std::getline(in_, line_)) end_early();
-      rest_ = line_;
-    }
-    const auto value = read_decimal(word);
-    if (!value) fail(fmt::format("'{}' is no number", word.substr(0, 60)));
-    return *value;
-  }
-
-  [[noreturn]] void end_early() const {
-    need_whole(in_, path_);
-    fail("ends before all that its header announces");
-  }
-
-  std::string path_;
-  std::ifstream in_;
-  std::uint64_t bytes_ = 0;  // of the file
-  std::string line_;
-  std::string_view rest_;  // of the line
-  bool is_text_ = true, is_big_endian_ = false;
-  std::vector<PlyElement> elements_;
-};
-
-constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+  return xyz;
+}
 
 void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
-  const Columns xyz = columns_of(element, {"x", "y", "z"});
+  const Columns xyz = xyz_of(ply, element);
   const Columns rgb = columns_of(element, {"red", "green", "blue"});
   out.vertices.reserve(out.vertices.size() + ply.most_items(element));
   std::uint64_t i = 0;  // within the element
@@ -244,24 +72,55 @@ void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
   });
 }
 
+std::uint32_t corner_from(double vertex) {
+  return vertex >= 0.0 && vertex < kNoVertex ? static_cast<std::uint32_t>(vertex) : kNoVertex;
+}
+
+/// Which of an element's properties list corners. Refuses an element whose lists do not.
+std::vector<std::size_t> corner_lists_of(const PlyFile& ply, const PlyElement& element) {
+  std::vector<std::size_t> lists;
+  std::string others;
+  for (std::size_t k = 0; k < element.properties.size(); ++k) {
+    const PlyProperty& property = element.properties[k];
+    if (property.is_corners()) lists.push_back(k);
+    if (property.count_type != nullptr) others += fmt::format(" '{}'", property.name);
+  }
+  if (lists.empty() && element.count > 0) {
+    ply.fail(fmt::format("its element '{}' lists{}, not vertex_indices", element.name,
+                         others.empty() ? " nothing" : others));
+  }
+  return lists;
+}
+
+/// Each strip's triangles turn in the same sense; -1 begins another strip.
+void read_strips(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
+  const std::vector<std::size_t> lists = corner_lists_of(ply, element);
+  ply.for_each_item(element, [&](const PlyItem& item) {
+    for (const std::size_t k : lists) {
+      std::size_t length = 0;
+      for (std::size_t i = 0; i < item[k].size(); ++i) {
+        length = item[k][i] == -1.0 ? 0 : length + 1;
+        if (length < 3) continue;
+        const bool is_odd = length % 2 == 0;
+        for (const std::size_t back : {is_odd ? 1U : 2U, is_odd ? 2U : 1U, 0U}) {
+          out.corners.push_back(corner_from(item[k][i - back]));
+        }
+        out.face_ends.push_back(as_index(out.corners.size(), ply.path(), "corners"));
+      }
+    }
+  });
+}
+
 /// Takes vertices of any number: a file may list the vertices after the faces.
 void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
                 std::vector<std::uint32_t>& face_rgb) {
   const Columns rgb = columns_of(element, {"red", "green", "blue"});
-  std::vector<std::size_t> lists;
-  for (std::size_t k = 0; k < element.properties.size(); ++k) {
-    const auto& [name, type, count_type] = element.properties[k];
-    const bool is_corners = name == "vertex_indices" || name == "vertex_index";
-    if (is_corners && count_type != nullptr) lists.push_back(k);
-  }
+  const std::vector<std::size_t> lists = corner_lists_of(ply, element);
   out.face_ends.reserve(out.face_ends.size() + ply.most_items(element));
   out.corners.reserve(out.corners.size() + 3 * ply.most_items(element));
   ply.for_each_item(element, [&](const PlyItem& item) {
     for (const std::size_t k : lists) {
-      for (const double vertex : item[k]) {
-        const bool is_possible = vertex >= 0.0 && vertex < kNoVertex;
-        out.corners.push_back(is_possible ? static_cast<std::uint32_t>(vertex) : kNoVertex);
-      }
+      for (const double vertex : item[k]) out.corners.push_back(corner_from(vertex));
       out.face_ends.push_back(as_index(out.corners.size(), ply.path(), "corners"));
     }
     add_colour(item, element, rgb, face_rgb);
@@ -297,17 +156,27 @@ PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>
   PlyFile ply(path);
   PolygonMesh out;
   std::vector<std::uint32_t> face_rgb;  // 0xrrggbb in sRGB
-  for (const PlyElement& element : ply.elements()) {
+  const auto is_shape = [](const PlyElement& element) {
+    return element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+  };
+  const std::vector<PlyElement>& all = ply.elements();
+  const auto last = std::find_if(all.rbegin(), all.rend(), is_shape).base();
+  for (auto at = all.begin(); at != last || (ply.is_free() && at != all.end()); ++at) {
+    const PlyElement& element = *at;
     if (element.name == "vertex") {
       read_vertices(ply, element, out);
     } else if (element.name == "face") {
       read_faces(ply, element, out, face_rgb);
+    } else if (element.name == "tristrips") {
+      read_strips(ply, element, out);
     } else {
       ply.for_each_item(element, [](const PlyItem&) {});
     }
   }
+  if (last == all.end() || ply.is_free()) out.lost_faces = ply.warn_of_rest(warnings);
   if (face_rgb.size() != out.face_ends.size()) face_rgb.clear();
   if (const std::size_t dropped = drop_impossible_faces(out, face_rgb); dropped > 0) {
+    out.lost_faces += dropped;
     warnings.push_back(
         fmt::format("{}: {} faces of vertices that do not exist left out", ply.path(), dropped));
   }
@@ -321,13 +190,15 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path) {
   std::vector<Vec3f> points;
   for (const PlyElement& element : ply.elements()) {
     const bool is_vertices = element.name == "vertex" && !element.properties.empty();
-    const Columns xyz = columns_of(element, {"x", "y", "z"});
+    const Columns xyz = is_vertices ? xyz_of(ply, element) : Columns{};
     if (is_vertices) points.reserve(ply.most_items(element));
     ply.for_each_item(element, [&](const PlyItem& item) {
       if (is_vertices) points.push_back(position_of(item, xyz).cast<float>());
     });
-    if (is_vertices) break;
+    if (is_vertices && !ply.is_free()) break;
   }
+  std::vector<std::string> ignored;
+  if (ply.is_free()) ply.warn_of_rest(ignored);
   return points;
 }
 

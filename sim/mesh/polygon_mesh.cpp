@@ -197,6 +197,11 @@ void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
 
 }  // namespace
 
+void append_triangles(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
+                      std::vector<std::array<std::uint32_t, 3>>& faces) {
+  EarClipper().cut(corners, vertices, faces);
+}
+
 void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
                   std::vector<std::uint16_t>& face_material) {
   const bool are_exact = are_few(face_rgb);

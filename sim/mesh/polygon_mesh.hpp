@@ -15,6 +15,9 @@
 
 namespace gnbv {
 
+/// Stands for a vertex that does not exist.
+inline constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
 /// For faces without a material and for materials without a colour.
 inline constexpr std::string_view kDefaultMaterial = "DefaultMaterial";
 inline constexpr std::array<float, 3> kDefaultColour = {0.6F, 0.6F, 0.6F};
@@ -28,21 +31,24 @@ struct PolygonMesh {
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
   std::vector<std::uint32_t> vertex_rgb;     // (n), 0xrrggbb in sRGB, to colour the faces; or empty
   std::string not_finite;  // names the first coordinate that is NaN or infinite; empty without one
+  std::size_t lost_faces = 0;  // that could not be used
 };
 
 /// Reads the shape and the diffuse colours of its materials; no normals, no texture coordinates.
-/// Leaves out unreadable lines and faces of vertices that do not exist, and counts them in
-/// `warnings`. Throws BadInput naming the line where that could number vertices wrongly: an
-/// unreadable line beside a vertex, with more vertices after it.
+/// Leaves out unreadable lines, faces of vertices that do not exist and surfaces that are no
+/// polygons, and counts them in `warnings`. Throws BadInput naming the line where that could number
+/// vertices wrongly: a line beside a vertex that begins with no keyword, with more vertices after
+/// it.
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings);
 /// The same of a text and that of its material library. Messages call the text `path`.
 PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view obj,
                           std::string_view mtl, std::vector<std::string>& warnings);
 
-/// Reads vertices (x, y, z; 0 where the file lacks one), faces (vertex_indices or vertex_index) and
-/// red, green, blue: of the faces, or else of the vertices. Faces of fewer than three corners or of
-/// vertices that do not exist are left out and counted in `warnings`. Throws BadInput naming what
-/// is wrong with a file that is no PLY, ends too early or holds what is no number.
+/// Reads vertices (x, y, z), faces and triangle strips (vertex_indices, vertex_index or
+/// vertex_indexes) and red, green, blue: of the faces, or else of the vertices. Faces of fewer than
+/// three corners or of vertices that do not exist are left out and counted in `warnings`. Throws
+/// BadInput naming what is wrong with a file that is no PLY, ends too early, lacks a coordinate,
+/// has words left over in a row or holds what is no number where one is needed.
 PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings);
 /// The vertices alone. Reads no further.
 std::vector<Vec3f> read_ply_points(const std::filesystem::path& path);
@@ -53,6 +59,10 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path);
 /// one; one without area gives triangles without area. Vertices keep their numbers. A triangle has
 /// the material of its polygon or, where there is `vertex_rgb`, the mean colour of its corners.
 TriangleMesh triangulated(PolygonMesh polygons);
+
+/// Appends the triangles of one polygon, cut in the same way.
+void append_triangles(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
+                      std::vector<std::array<std::uint32_t, 3>>& faces);
 
 /// Materials for faces of these colours, 0xrrggbb in sRGB, in order of first use; beyond 256 of
 /// them in 16 steps a channel.

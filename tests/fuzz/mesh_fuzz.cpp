@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/core/error.hpp"
-#include "sim/mesh/mesh_file.hpp"
-#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/file_kind.hpp"
+#include "sim/mesh/mesh_scene.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 #include "tests/fuzz/written.hpp"
 
@@ -34,12 +34,37 @@ void check_mesh(const PolygonMesh& mesh) {
              "{} triangles", triangles.faces.size());
 }
 
-void check_units(std::string_view content) {
-  const DeclaredAxes declared = declared_by_collada(content);
-  GNBV_CHECK(declared.unit_m.has_value() && *declared.unit_m > 0.0, "a unit of nothing");
-  GNBV_CHECK(declared.up_axis >= 'x' && declared.up_axis <= 'z', "an axis of no name");
-  const auto number = read_decimal(content.substr(0, 64));
-  GNBV_CHECK(!number || !content.empty(), "a number out of nothing");
+void check_scene(const MeshScene& scene) {
+  for (const MeshScene::Instance& instance : scene.instances) {
+    GNBV_CHECK(instance.part < scene.parts.size(), "part {}", instance.part);
+    GNBV_CHECK(instance.material < scene.materials.size(), "material {}", instance.material);
+  }
+  for (const MeshScene::Part& part : scene.parts) {
+    for (const auto& face : part.faces) {
+      for (const std::uint32_t v : face) GNBV_CHECK(v < part.vertices.size(), "vertex {}", v);
+    }
+  }
+  if (scene.instances.size() < 1000) {
+    assembled(scene, Eigen::Matrix4d::Identity(), "mesh");
+  }
+}
+
+void check_file(char format, std::string_view content) {
+  std::vector<std::string> warnings;
+  const auto path = gnbv::written(content, "mesh");
+  what_it_is_instead(path, ".obj");
+  switch (format) {
+    case 'c':
+      return check_scene(read_collada(path));
+    case 'g':
+      return check_scene(read_gltf(path));
+    case 's':
+      return check_scene(read_stl(path));
+    case 'p':
+      return check_mesh(read_ply(path, warnings));
+    default:
+      return check_mesh(read_obj(path, warnings));
+  }
 }
 
 }  // namespace
@@ -48,15 +73,8 @@ void check_units(std::string_view content) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view content(reinterpret_cast<const char*>(data) + 1, size - 1);
-  if (data[0] == 'c') {
-    gnbv::check_units(content);
-    return 0;
-  }
-  std::vector<std::string> warnings;
   try {
-    const auto path = gnbv::written(content, "mesh");
-    gnbv::check_mesh(data[0] == 'p' ? gnbv::read_ply(path, warnings)
-                                    : gnbv::read_obj(path, warnings));
+    gnbv::check_file(static_cast<char>(data[0]), content);
   } catch (const gnbv::BadInput&) {
     // said, and that is all
   }

@@ -148,8 +148,9 @@ void lay_bounds(const Scenario& scenario, const TriangleMesh& mesh, Advice& advi
 
 std::vector<std::string> Advice::sets() const {
   std::vector<std::string> all;
+  const std::string turn = likely_up && likely_up->is_sure ? up_axis : "";
   for (const std::string& set :
-       {resize ? resize->set : std::string(), up_axis, offset, floor, resolution}) {
+       {resize ? resize->set : std::string(), turn, offset, floor, resolution}) {
     if (!set.empty()) all.push_back(set);
   }
   return all;
@@ -159,10 +160,11 @@ Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_au
   Advice advice;
   Placement placement(report, scenario);
   advice.resize = resize(report, scenario, placement);
-  const std::optional<char> up = likely_up_axis(in_file_axes(report, scenario));
-  if (up && *up != report.reading.up_axis && scenario.structure.file.up_axis == "auto") {
-    placement.turn_up(*up);
-    advice.up_axis = fmt::format("structure.file.up_axis={}", *up);
+  advice.likely_up = likely_up_axis(in_file_axes(report, scenario), report.reading.up_axis);
+  const auto& up = advice.likely_up;
+  if (up && up->axis != report.reading.up_axis && scenario.structure.file.up_axis == "auto") {
+    advice.up_axis = fmt::format("structure.file.up_axis={}", up->axis);
+    if (up->is_sure) placement.turn_up(up->axis);
   }
   place(scenario, placement, advice);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenarios/scenario.hpp"
+#include "sim/mesh/mesh_lint.hpp"
 
 namespace gnbv {
 
@@ -21,7 +22,8 @@ struct Resize {
 /// when all else is done. What is as it should be is empty.
 struct Advice {
   std::optional<Resize> resize;
-  std::string up_axis;  // KEY=VALUE, as the next
+  std::optional<LikelyUp> likely_up;
+  std::string up_axis;  // KEY=VALUE, as the next; to be set only where that axis is sure
   std::string offset;
   bool is_far = false;        // from the origin: the offset brings it there
   bool needs_bounds = false;  // --bounds auto: the workspace does not hold it, or not its start

@@ -68,18 +68,22 @@ Finding size_finding(const MeshReport& report, const Advice& advice) {
 }
 
 Finding up_axis_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice) {
+  const std::optional<LikelyUp>& likely = advice.likely_up;
   const MeshReading& reading = report.reading;
   const bool is_set = scenario.structure.file.up_axis != "auto";
   const std::string_view origin = is_set                     ? "by structure.file.up_axis"
                                   : reading.declared.up_axis ? "as the file declares"
                                                              : "as assumed, the file declares none";
   std::string what = fmt::format("{} is up, {}", reading.up_axis, origin);
-  const std::optional<char> likely = likely_up_axis(in_file_axes(report, scenario));
   if (!likely) return {"up axis", Severity::ok, what + "; its shape does not tell", ""};
-  if (*likely == reading.up_axis) return {"up axis", Severity::ok, what + "; its shape agrees", ""};
-  return {"up axis", is_set ? Severity::note : Severity::warning,
-          fmt::format("{}, but by its shape it stands on {} = 0 or is flat there", what, *likely),
-          advice.up_axis.empty() ? "" : "if it lies on its side: " + flag(advice.up_axis)};
+  if (likely->axis == reading.up_axis)
+    return {"up axis", Severity::ok, what + "; its shape agrees", ""};
+  return {
+      "up axis", is_set ? Severity::note : Severity::warning,
+      fmt::format("{}, but by its shape it stands on {} = 0 or is flat there", what, likely->axis),
+      advice.up_axis.empty() ? ""
+      : likely->is_sure      ? flag(advice.up_axis)
+                             : "if it lies on its side: " + flag(advice.up_axis)};
 }
 
 Finding place_finding(const MeshReport& report, const Scenario& scenario, const Advice& advice,
@@ -247,6 +251,15 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
     out.push_back({"file", Severity::warning, warning, "export the mesh again, if it matters"});
   }
   const MeshLint& lint = report.lint;
+  constexpr double kMostLost = 0.01;
+  const std::size_t lost = report.reading.lost_faces;
+  const std::size_t held = lost + report.reading.mesh.faces.size();
+  if (static_cast<double>(lost) > kMostLost * static_cast<double>(held)) {
+    out.push_back({"lost", Severity::error,
+                   fmt::format("{} of {} could not be used: this is not the shape that was meant",
+                               lost, counted(held, "face", "faces")),
+                   "export the mesh again"});
+  }
   out.push_back(tallied(
       "coordinates", lint.not_finite_vertices, Severity::error, "all are finite numbers",
       fmt::format(

@@ -1,4 +1,5 @@
 // view_from_outside() of mesh_report.hpp.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -52,15 +53,21 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
   const TriangleMesh& mesh = world.structure;
   OutsideView view;
   view.area_m2 = surface_area_m2(mesh);
-  if (mesh.faces.empty()) return view;
+  constexpr double kFarthest_m = 1e12;  // rays of single precision end on the way to 1e18
+  if (mesh.faces.empty() || farthest_m(lint.box_m) > kFarthest_m) return view;
   std::vector<bool> is_two_sided;
   for (std::size_t i = 0; i < lint.is_sound.size(); ++i) {
     if (lint.is_sound[i]) is_two_sided.push_back(lint.is_two_sided[i]);
   }
   const RayScene scene(world);
-  const ReferenceConfig config;
   const std::vector<SurfaceSample> samples =
       sample_surface(mesh, std::sqrt(view.area_m2 / kSamples));
+  ReferenceConfig config;
+  // more samples, each of less surface, get by with fewer directions
+  constexpr double kFewest = 128.0;
+  config.directions = static_cast<int>(std::clamp(
+      config.directions * kSamples / static_cast<double>(std::max<std::size_t>(samples.size(), 1)),
+      kFewest, static_cast<double>(config.directions)));
   const std::vector<std::uint8_t> sees_out =
       samples_seeing_out(world, scene, samples, config, threads);
 

@@ -200,7 +200,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     if (options.on_progress) options.on_progress(share_done, note);
   };
   show_progress(0.0, "finding what there is to see");
-  const SurfaceReference reference = reference_of(scenario, world, scene, threads);
+  const SurfaceReference reference = reference_of(
+      scenario, world, scene, threads, [&](const std::string& note) { show_progress(0.0, note); });
   const InterruptGuard interrupt;
   const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
   auto route = known_route(scenario, world, scene, reference, show_progress, should_stop, threads);

@@ -1,5 +1,8 @@
 #include "tools/mission/reference.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <memory>
 #include <span>
@@ -8,7 +11,10 @@
 #include "bench/score/cloud_metrics.hpp"
 #include "bench/score/coverage_curve.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/terminal/progress.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -38,13 +44,40 @@ class Meter {
   std::size_t looked_at_ = 0;
 };
 
+/// Says what is about to be spent where that is much, and refuses more than the machine has.
+void announce(const Scenario& scenario, const ReferenceCost& cost, int threads) {
+  constexpr double kLong_s = 8.0;
+  const double seconds = cost.thread_s / std::max(threads, 1);
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const std::string what = fmt::format(
+      "{}: {} m2 of surface, about {:.2g} million voxels of 0.05 m: what there is to see takes "
+      "some "
+      "{} on {} and {:.1f} GB of memory to find",
+      structure_name(scenario.structure), grouped(cost.area_m2, 0), 1e-6 * cost.voxels,
+      duration_text(seconds), counted(static_cast<std::size_t>(threads), "thread"),
+      cost.bytes / 0x1p30);
+  if (cost.bytes > memory) {
+    throw BadInput(
+        fmt::format("{}, and this machine has {:.1f} GB: fly a part of it, or lower "
+                    "structure.file.scale",
+                    what, memory / 0x1p30));
+  }
+  if (seconds > kLong_s) say("{}, once; it is kept", what);
+}
+
 }  // namespace
 
 SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
-                              int threads) {
+                              int threads,
+                              const std::function<void(const std::string& note)>& show) {
   const double floor_z_m = scenario.planner.floor_z_m;
   const ReferenceConfig config = reference_config(scenario);
-  SurfaceReference reference = cached_surface_reference(world, scene, config, threads);
+  const auto progress = [&](double share_done) {
+    if (share_done == 0.0) announce(scenario, cost_of_reference(world.structure, config), threads);
+    if (show) show(fmt::format("finding what there is to see: {:.0f} %", 100.0 * share_done));
+  };
+  SurfaceReference reference = cached_surface_reference(world, scene, config, threads, progress);
   if (reference.counted[0].empty()) {
     const std::string where =
         config.region_m.isApprox(ReferenceConfig{}.region_m) ? "" : " and in score.region_m";

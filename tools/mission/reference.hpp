@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "bench/limits/ceiling.hpp"
 #include "bench/score/run_figures.hpp"
@@ -12,10 +13,12 @@
 
 namespace gnbv {
 
-/// From the cache, or found. Throws BadInput when there is nothing to measure: no surface above the
-/// scenario's floor is counted.
+/// From the cache, or found, which is said beforehand where it takes long, and shown as it goes on.
+/// Throws BadInput when there is nothing to measure, no surface above the scenario's floor is
+/// counted, and when the machine has not the memory to find it.
 SurfaceReference reference_of(const Scenario& scenario, const World& world, const RayScene& scene,
-                              int threads);
+                              int threads,
+                              const std::function<void(const std::string& note)>& show = {});
 
 /// What the scenario judges mean coverage and efforts over.
 Budgets budgets_of(const ScoreConfig& score);

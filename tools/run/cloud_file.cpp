@@ -18,6 +18,18 @@ namespace gnbv {
 
 namespace {
 
+/// Whether a line is three numbers with a decimal comma each, which commas between numbers would
+/// be taken for.
+bool has_decimal_commas(std::string_view line) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view word = take_word(line);
+    const std::size_t comma = word.find(',');
+    const bool is_between_digits = comma != word.npos && comma > 0 && comma + 1 < word.size();
+    if (!is_between_digits || word.find(',', comma + 1) != word.npos) return false;
+  }
+  return true;
+}
+
 /// The next number of a line, which is cut off; nothing where there is none.
 std::optional<float> take_number(std::string_view& line) {
   constexpr std::string_view kBetween = " \t\r,;";
@@ -31,17 +43,21 @@ std::optional<float> take_number(std::string_view& line) {
 std::vector<Vec3f> read_xyz_cloud(const std::filesystem::path& path) {
   std::ifstream file = open_file(path);
   std::vector<Vec3f> points_m;
-  std::string whole;
-  for (std::size_t number = 1; std::getline(file, whole); ++number) {
+  LineReader lines(file);
+  for (std::string_view whole; lines.next(whole);) {
     const std::size_t first = whole.find_first_not_of(" \t\r");
     if (first == std::string::npos || whole[first] == '#') continue;
     std::string_view line = whole;
+    if (has_decimal_commas(line)) {
+      throw BadInput(fmt::format("{}:{}: '{}' has decimal commas: write decimal points",
+                                 path.string(), lines.number(), whole.substr(0, 60)));
+    }
     Vec3f p_m;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto value = take_number(line);
       if (!value) {
         throw BadInput(fmt::format("{}:{}: '{}' does not begin with three numbers", path.string(),
-                                   number, whole.substr(0, 60)));
+                                   lines.number(), whole.substr(0, 60)));
       }
       p_m[axis] = *value;
     }

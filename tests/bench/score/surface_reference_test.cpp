@@ -305,5 +305,25 @@ TEST(SurfaceReference, HalvingTheSpacingMovesCoverageByLessThanAFifthOfAPoint) {
   }
 }
 
+TEST(SurfaceReference, CostIsForetoldAndProgressToldUntilItIsThere) {
+  TriangleMesh hall;
+  test::add_box(hall, {0.01, 0.02, 0.31}, {12, 9, 3});
+  for (int i = 0; i < 5; ++i) test::add_box(hall, {1.0 + 2.0 * i, 4.03, 0.5}, {0.4, 0.4, 2});
+  const World world{.structure = hall};
+  const RayScene scene(world);
+  std::vector<double> shares;
+  const SurfaceReference found =
+      make_surface_reference(world, scene, {}, 2, [&](double share) { shares.push_back(share); });
+  const ReferenceCost cost = cost_of_reference(hall, {});
+  EXPECT_NEAR(cost.area_m2, surface_area_m2(hall), 1e-9);
+  const auto voxels = static_cast<double>(found.raw[0].size());
+  EXPECT_GT(cost.voxels, voxels / 2.0);
+  EXPECT_LT(cost.voxels, voxels * 2.0);
+  EXPECT_EQ(shares.front(), 0.0);
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(found, reference_of(hall));
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -95,24 +95,35 @@ TEST_F(MeshFile, ConfigOverridesUnitAndUpAxis) {
   expect_collada(load_mesh(config), 0.01, x_to_z);
 }
 
-TEST(ColladaAxes, TheUnitIsTheNumberOfItsMeterAttribute) {
-  const auto unit_m = [](const std::string& tag) {
-    return declared_by_collada("<COLLADA><asset>" + tag + "</asset><unit meter='7'/>").unit_m;
+TEST_F(MeshFile, AColladaUnitIsTheNumberOfItsMeterAttribute) {
+  const auto unit_m = [&](const std::string& tag) {
+    return read_mesh(file(write("t.dae", collada(tag, "")))).declared.unit_m;
   };
   EXPECT_EQ(unit_m("<unit meter=\"0.0254\" name=\"inch\"/>"), 0.0254);
   EXPECT_EQ(unit_m("<unit name='meter' meter = ' 2e-3 '/>"), 2e-3);
   EXPECT_EQ(unit_m("<unit name='a meter'\n\tmeter='3'></unit>"), 3.0);
+  EXPECT_EQ(unit_m("<!-- <unit meter='7'/> --><unit meter='0.5'/>"), 0.5);
+  EXPECT_EQ(unit_m("<unit meter='0,01'/>"), 0.01);
+  EXPECT_EQ(unit_m("<unit name='" + std::string(5'000'000, 'a') + "' meter='0.5'/>"), 0.5);
   for (const char* silent : {"", "<unit name='inch'/>", "<unit meter='0'/>", "<unit meter='-1'/>",
-                             "<unit meter='one'/>", "<unit meter='", "<unit", "<units x=''/>"}) {
+                             "<unit meter='one'/>", "<units x=''/>"}) {
     EXPECT_EQ(unit_m(silent), 1.0) << silent;
+  }
+  for (const char* cut : {"<unit meter='", "<unit"}) {
+    EXPECT_TRUE(says(complaint(file(write("t.dae", collada(cut, "")))), {"t.dae:"})) << cut;
   }
 }
 
-TEST(ColladaAxes, NoHeaderIsTooLong) {
-  const std::string name(5'000'000, 'a');
-  EXPECT_EQ(declared_by_collada("<unit name='" + name + "' meter='0.5'/>").unit_m, 0.5);
-  EXPECT_EQ(declared_by_collada("<unit " + name).unit_m, 1.0);
-  EXPECT_EQ(declared_by_collada("<up_axis>" + std::string(5'000'000, ' ') + "Z_UP").up_axis, 'z');
+TEST_F(MeshFile, AColladaUpAxisIsTheWordInIt) {
+  const std::string blanks(5'000'000, ' ');
+  for (const std::string& tag :
+       {std::string("<up_axis>\n\t Z_UP <!-- so -->\n</up_axis>"),
+        "<up_axis>" + blanks + "Z_UP</up_axis>",
+        std::string("<!-- <up_axis>X_UP</up_axis> --><up_axis><![CDATA[Z_UP]]></up_axis>")}) {
+    const MeshReading reading = read_mesh(file(write("t.dae", collada("", tag))));
+    EXPECT_EQ(reading.declared.up_axis, 'z') << tag.substr(0, 80);
+    expect_collada(reading.mesh, 1.0, z_stays);
+  }
 }
 
 // The paper's own structures are never committed: these run on machines that have them.

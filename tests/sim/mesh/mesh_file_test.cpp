@@ -131,7 +131,7 @@ TEST_F(MeshFile, GarbageAmongTheVerticesIsRefused) {
        {std::pair("v 0.\x01\n", ":3: "), std::pair("v 1 2\n", ":3: vertex 3"),
         std::pair("v 1 2 3x\n", ":3: vertex 3"), std::pair(".7 0.3 1\n", ":3: "),
         std::pair("vt 0 0\n.7 0.3 1\n", ":4: "), std::pair(".7 0.3 1\nvt 0 0\n", ":3: "),
-        std::pair("o a\x02\n", ":3: "), std::pair("vt 0 x\n", ":3: ")}) {
+        std::pair("o a\x02\n", ":3: "), std::pair("x 1 2 3\n", ":3: ")}) {
     EXPECT_TRUE(says(with(middle), {where})) << middle;
   }
   EXPECT_EQ(with("vt 0 0\n.7 0.3 1\nvt 1 1\n"), "");

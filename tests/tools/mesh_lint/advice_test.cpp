@@ -127,6 +127,28 @@ struct Boxes {
   std::string path = (temp.path() / "t.obj").string();
 };
 
+TEST(Advice, WhatStandsOnTheGroundIsNotLaidDown) {
+  // a pole of two boxes, a wall, a pier: thin along axes that begin elsewhere than at 0
+  for (const Boxes& boxes : {Boxes({Box3(Vec3(-0.1, -0.03, 0), Vec3(0.1, 0.03, 9)),
+                                    Box3(Vec3(-0.3, -0.03, 8), Vec3(0.3, 0.03, 8.5))}),
+                             Boxes({Box3(Vec3(-4, 0, 0), Vec3(4, 0.2, 3))}),
+                             Boxes({Box3(Vec3(-1, -10, 0), Vec3(1, 10, 0.5))})}) {
+    const std::string text = terminal_text(boxes.report());
+    EXPECT_EQ(text.find("up_axis="), std::string::npos) << text;
+  }
+}
+
+TEST(Advice, WhatMayLieOnItsSideIsAHintAndNoMore) {
+  // flat below along y, and no axis begins at 0
+  const Boxes boxes({Box3(Vec3(1, 2, 1), Vec3(9, 2.001, 9)), Box3(Vec3(4, 2, 4), Vec3(5, 30, 5))});
+  const MeshReport report = boxes.report();
+  const std::string text = terminal_text(report);
+  EXPECT_NE(text.find("if it lies on its side: --set structure.file.up_axis=y"), text.npos) << text;
+  for (const std::string& set : report.advice.sets()) {
+    EXPECT_EQ(set.find("up_axis"), set.npos) << set;
+  }
+}
+
 TEST(Advice, AHairBelowTheFloorIsNoFault) {
   const MeshReport report = Boxes({Box3(Vec3(-2, -3, -1e-4), Vec3(2, 3, 8))}).report();
   EXPECT_TRUE(report.advice.sets().empty()) << terminal_text(report);

@@ -188,6 +188,25 @@ TEST_F(Report, WhatLoadMeshRefusesIsStillReported) {
   }
 }
 
+TEST_F(Report, WhatIsTooLargeForRaysIsAFindingAndNoCrash) {
+  for (const char* far : {"1e15", "1e19", "3e37"}) {
+    const std::string x(far);
+    const MeshReport report =
+        of_text("v 0 0 0\nv " + x + " 0 0\nv 0 " + x + " " + x + "\nv 1 1 1\nf 1 2 3\nf 1 2 4\n");
+    EXPECT_FALSE(report.is_usable()) << far;
+    EXPECT_EQ(finding(report, "place").severity, Severity::error) << far;
+  }
+}
+
+TEST_F(Report, AHundredthOfTheFacesMayBeLost) {
+  std::string text = "v 0 0 1\nv 4 0 1\nv 0 4 5\n";
+  for (int i = 0; i < 99; ++i) text += "f 1 2 3\n";
+  EXPECT_TRUE(of_text(text + "f 1 2 9\n").is_usable());
+  const MeshReport report = of_text(text + "f 1 2 9\nf 1 2\n");
+  EXPECT_FALSE(report.is_usable());
+  EXPECT_TRUE(says(finding(report, "lost").what, "2 of 101 faces"));
+}
+
 TEST_F(Report, EveryFlawHasItsFinding) {
   TriangleMesh mesh = tower({-2, -3, 0});
   const auto faces = mesh.faces;

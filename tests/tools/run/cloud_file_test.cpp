@@ -74,6 +74,10 @@ TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
                   labelled);
   EXPECT_EQ(read_cloud(between), kPoints);
   EXPECT_EQ(read_cloud(written(temp, "d.xyz", "# x y z\n\n" + text)), kPoints);
+  EXPECT_EQ(read_cloud(
+                written(temp, "m.xyz",
+                        "\xEF\xBB\xBF# x y z\r\r" + std::string("1 2 3\r-4.5 0 1e-3\r0.1 7 -8\r"))),
+            kPoints);
   EXPECT_EQ(read_cloud(written(temp, "e.xyz", "+1,2,3,255,0,0\r\n-4.5;0;1e-3\n0.1\t7 -8")),
             kPoints);
 }
@@ -120,6 +124,8 @@ TEST(CloudFile, WhatIsNoCloudIsNamedWithItsLine) {
   EXPECT_NE(cut.find("cut.ply: ends before"), std::string::npos) << cut;
   const std::string prose = complaint_of(written(temp, "prose.ply", "Lorem ipsum\n"));
   EXPECT_NE(prose.find("prose.ply: is no PLY"), std::string::npos) << prose;
+  EXPECT_NE(complaint_of(written(temp, "c.xyz", "1.5 2 3\r0,5 1,25 3,5\r")).find("c.xyz:2: "),
+            std::string::npos);  // decimal commas
   const std::string line = complaint_of(written(temp, "line.xyz", "1 2 3\n1 2\n"));
   EXPECT_NE(line.find("line.xyz:2"), std::string::npos) << line;
   EXPECT_NE(complaint_of(written(temp, "a.stl", "")).find(".ply or an .xyz"), std::string::npos);

@@ -1,0 +1,337 @@
+#include "sim/mesh/collada_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
+
+namespace gnbv {
+namespace {
+
+using Ring = std::vector<std::uint32_t>;
+
+std::string trimmed(const std::string& text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
+/// A number as assimp read it: whole part, broken part and power of ten each in single precision.
+/// So the paper's structures stay what they were, bit for bit.
+std::optional<double> read_single(std::string_view word) {
+  const std::size_t e = std::min(word.find_first_of("eE"), word.size());
+  const auto value = read_with_comma(word.substr(0, e));
+  if (!value) return read_decimal(word);  // inf, for one
+  const double whole = std::trunc(*value);
+  float out = static_cast<float>(whole) + static_cast<float>(*value - whole);
+  if (e == word.size()) return out;
+  const auto power = read_decimal(word.substr(e + 1));
+  if (!power) return std::nullopt;
+  return out * std::pow(10.0F, static_cast<float>(*power));
+}
+
+/// The positions that a <source> gives: its accessor says where each begins.
+std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source) {
+  const XmlElement accessor = source.child("technique_common").child("accessor");
+  XmlElement array = file.named_by(accessor, "source");
+  if (!array || array.name() == "source") array = source.child("float_array");
+  if (!array) array = source.child("int_array");
+  const std::vector<double> values = file.singles(array);
+  const auto number = [&](const char* key, std::size_t fallback) {
+    const auto value = read_decimal(trimmed(accessor.attribute(key).value_or("")));
+    return value >= 0.0 && value < 1e9 ? static_cast<std::size_t>(*value) : fallback;
+  };
+  const std::size_t stride = number("stride", 3);
+  const std::size_t offset = number("offset", 0);
+  if (stride < 3) file.fail(source, "positions of fewer than three coordinates");
+  std::array<std::size_t, 3> columns = {0, 1, 2};
+  const std::vector<XmlElement> params = accessor.children("param");
+  for (std::size_t k = 0; k < std::min(params.size(), stride); ++k) {
+    const std::string name = params[k].attribute("name").value_or("");
+    if (name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z') {
+      columns[static_cast<std::size_t>(name[0] - 'X')] = k;
+    }
+  }
+  std::vector<Vec3> out;
+  for (std::size_t at = offset; at + stride <= values.size(); at += stride) {
+    out.emplace_back(values[at + columns[0]], values[at + columns[1]], values[at + columns[2]]);
+  }
+  const std::size_t announced = number("count", out.size());
+  if (out.size() < announced) {
+    file.fail(source, fmt::format("{} of the {} positions that its accessor announces", out.size(),
+                                  announced));
+  }
+  out.resize(announced);
+  return out;
+}
+
+/// Joins a polygon and its holes into one that touches itself: by the shortest bridges that cross
+/// no edge, in the plane of its Newell normal.
+class HoleBridges {
+ public:
+  HoleBridges(const std::vector<Vec3>& vertices, const Ring& outer) : vertices_(vertices) {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 2; i < outer.size(); ++i) {
+      normal += (vertices[outer[i - 1]] - vertices[outer[0]])
+                    .cross(vertices[outer[i]] - vertices[outer[0]]);
+    }
+    normal.cwiseAbs().maxCoeff(&axis_);
+  }
+
+  Ring joined(Ring outer, std::vector<Ring> holes) const {
+    for (Ring& hole : holes) {
+      if ((area(hole) > 0.0) == (area(outer) > 0.0)) std::reverse(hole.begin(), hole.end());
+    }
+    while (!holes.empty()) {
+      Bridge best;
+      for (std::size_t h = 0; h < holes.size(); ++h) find_bridge(outer, holes, h, best);
+      Ring hole = std::move(holes[best.hole]);
+      holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(best.hole));
+      const auto place = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+      std::rotate(hole.begin(), hole.begin() + place(best.to), hole.end());
+      hole.push_back(hole.front());
+      hole.push_back(outer[best.from]);
+      outer.insert(outer.begin() + place(best.from) + 1, hole.begin(), hole.end());
+    }
+    return outer;
+  }
+
+ private:
+  struct Bridge {
+    std::size_t hole = 0, from = 0, to = 0;
+    double length = std::numeric_limits<double>::infinity();
+  };
+
+  Eigen::Vector2d at(std::uint32_t corner) const {
+    return {vertices_[corner][(axis_ + 1) % 3], vertices_[corner][(axis_ + 2) % 3]};
+  }
+  double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const Eigen::Vector2d ab = at(b) - at(a), ac = at(c) - at(a);
+    return ab.x() * ac.y() - ab.y() * ac.x();
+  }
+  double area(const Ring& corners) const {
+    double sum = 0.0;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      sum += turn(corners[0], corners[i - 1], corners[i]);
+    }
+    return sum;
+  }
+  bool crosses(std::uint32_t a, std::uint32_t b, const Ring& corners) const {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t c = corners[i], d = corners[(i + 1) % corners.size()];
+      if (turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0) return true;
+    }
+    return false;
+  }
+  void find_bridge(const Ring& outer, const std::vector<Ring>& holes, std::size_t hole,
+                   Bridge& best) const {
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      for (std::size_t j = 0; j < holes[hole].size(); ++j) {
+        const std::uint32_t a = outer[i], b = holes[hole][j];
+        const double length = (at(a) - at(b)).norm();
+        if (!(length < best.length) || crosses(a, b, outer)) continue;
+        const bool is_blocked = std::any_of(
+            holes.begin(), holes.end(), [&](const Ring& other) { return crosses(a, b, other); });
+        if (!is_blocked) best = {hole, i, j, length};
+      }
+    }
+  }
+
+  const std::vector<Vec3>& vertices_;
+  Eigen::Index axis_ = 2;
+};
+
+/// One <triangles>, <polylist>, ...: its corners and what they make up.
+class ColladaPrimitive {
+ public:
+  ColladaPrimitive(const ColladaFile& file, const XmlElement& element,
+                   const XmlElement& position_source, ColladaShape& shape)
+      : file_(file), element_(element), shape_(shape) {
+    for (const XmlElement& input : element.children("input")) {
+      const double offset =
+          read_decimal(trimmed(input.attribute("offset").value_or("0"))).value_or(-1.0);
+      if (!(offset >= 0.0 && offset < 1000.0)) file.fail(input, "an offset that is no count");
+      stride_ = std::max(stride_, static_cast<std::size_t>(offset) + 1);
+      const auto semantic = input.attribute("semantic");
+      if (semantic == "VERTEX" || (semantic == "POSITION" && !has_corners_)) {
+        offset_ = static_cast<std::size_t>(offset);
+        has_corners_ = true;
+        source_ = semantic == "POSITION" ? file.named_by(input, "source") : position_source;
+      }
+    }
+    group_.material = element.attribute("material").value_or("");
+  }
+
+  void read() {
+    if (!has_corners_ || !source_) file_.fail(element_, "faces without positions");
+    group_.part.vertices = positions_of(file_, source_);
+    const std::string_view kind = element_.name();
+    if (kind == "polylist") {
+      add_polylist();
+    } else {
+      for (const XmlElement& p : element_.children("p")) add(kind, corners_of(p));
+    }
+    for (const XmlElement& ph : element_.children("ph")) add_with_holes(ph);
+    shape_.groups.push_back(std::move(group_));
+  }
+
+ private:
+  Ring corners_of(const XmlElement& p) const {
+    const std::vector<double> values = file_.numbers(p);
+    if (values.size() % stride_ != 0) {
+      file_.fail(p, fmt::format("{} indices are no multiple of {}", values.size(), stride_));
+    }
+    Ring out;
+    for (std::size_t at = offset_; at < values.size(); at += stride_) {
+      const bool exists =
+          values[at] >= 0.0 && values[at] < static_cast<double>(group_.part.vertices.size());
+      out.push_back(exists ? static_cast<std::uint32_t>(values[at]) : kNoVertex);
+    }
+    return out;
+  }
+
+  void add(std::string_view kind, const Ring& corners) {
+    if (kind == "polygons") return add_face(corners);
+    const bool are_apart = kind == "triangles", is_fan = kind == "trifans";
+    if (are_apart && corners.size() % 3 != 0) ++shape_.impossible_faces;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += are_apart ? 3 : 1) {
+      const bool is_odd = !are_apart && !is_fan && i % 2 == 1;
+      const std::uint32_t a = corners[is_fan ? 0 : i + (is_odd ? 1 : 0)];
+      const std::uint32_t b = corners[is_odd ? i : i + 1];
+      add_face(std::array{a, b, corners[i + 2]});
+    }
+  }
+
+  void add_polylist() {
+    const std::vector<double> counts = file_.numbers(element_.child("vcount"));
+    const Ring corners = corners_of(element_.child("p"));
+    std::size_t begin = 0;
+    for (const double count : counts) {
+      const auto left = static_cast<double>(corners.size() - begin);
+      if (!(count >= 0.0 && count <= left)) {
+        file_.fail(element_, "a vcount that asks for more corners than there are");
+      }
+      const auto n = static_cast<std::size_t>(count);
+      add_face(std::span(corners).subspan(begin, n));
+      begin += n;
+    }
+    if (begin < corners.size()) file_.fail(element_, "corners that no vcount asks for");
+  }
+
+  void add_with_holes(const XmlElement& ph) {
+    const Ring outer = corners_of(ph.child("p"));
+    std::vector<Ring> holes;
+    for (const XmlElement& h : ph.children("h")) holes.push_back(corners_of(h));
+    const bool is_whole =
+        is_possible(outer) && std::all_of(holes.begin(), holes.end(),
+                                          [&](const Ring& hole) { return is_possible(hole); });
+    if (!is_whole) {
+      ++shape_.impossible_faces;
+    } else {
+      add_face(HoleBridges(group_.part.vertices, outer).joined(outer, std::move(holes)));
+    }
+  }
+
+  static bool is_possible(std::span<const std::uint32_t> face) {
+    return face.size() >= 3 && std::find(face.begin(), face.end(), kNoVertex) == face.end();
+  }
+  void add_face(std::span<const std::uint32_t> face) {
+    if (is_possible(face)) {
+      append_triangles(face, group_.part.vertices, group_.part.faces);
+    } else {
+      ++shape_.impossible_faces;
+    }
+  }
+
+  const ColladaFile& file_;
+  XmlElement element_;
+  ColladaShape& shape_;
+  ColladaShape::Group group_;
+  XmlElement source_;
+  std::size_t stride_ = 1, offset_ = 0;
+  bool has_corners_ = false;
+};
+
+}  // namespace
+
+ColladaFile::ColladaFile(const std::filesystem::path& path, std::vector<std::string>& warnings)
+    : path_(path), tree_(path, warnings) {
+  if (root().name() != "COLLADA") {
+    fail(root(), fmt::format("is no COLLADA file: its root is <{}>", root().name().substr(0, 60)));
+  }
+  tree_.for_each([&](const XmlElement& element) {
+    if (auto id = element.attribute("id")) by_id_.try_emplace(*id, element);
+  });
+}
+
+XmlElement ColladaFile::named_by(const XmlElement& from, const char* attribute) const {
+  std::string url = trimmed(from.attribute(attribute).value_or(""));
+  const std::size_t hash = url.find('#');
+  if (hash != url.npos && hash > 0) return {};  // in another file
+  url.erase(0, hash == 0 ? 1 : 0);
+  auto found = by_id_.find(url);
+  if (found == by_id_.end()) found = by_id_.find(percent_decoded(url));
+  return found != by_id_.end() ? found->second : XmlElement();
+}
+
+std::optional<double> read_with_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == word.npos) return read_decimal(word);
+  std::string pointed(word);
+  pointed[comma] = '.';
+  return read_decimal(pointed);
+}
+
+template <typename Read>
+std::vector<double> ColladaFile::words(const XmlElement& element, const Read& read) const {
+  std::vector<double> out;
+  std::string text = element.text();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::string_view rest = text;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
+    const auto value = read(word);
+    if (!value) {
+      fail(element, fmt::format("'{}' in <{}> is no number", word.substr(0, 60), element.name()));
+    }
+    out.push_back(*value);
+  }
+  return out;
+}
+
+std::vector<double> ColladaFile::numbers(const XmlElement& element) const {
+  return words(element, read_decimal);
+}
+
+std::vector<double> ColladaFile::singles(const XmlElement& element) const {
+  return words(element, read_single);
+}
+
+void ColladaFile::fail(const XmlElement& at, const std::string& what) const {
+  throw BadInput(fmt::format("{}:{}: {}", path_.string(), at.line(), what));
+}
+
+ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry) {
+  ColladaShape shape;
+  for (const XmlElement& body : geometry.children()) {
+    const std::string_view kind = body.name();
+    if (kind == "spline" || kind == "brep") ++shape.unread;
+    if (kind != "mesh" && kind != "convex_mesh") continue;
+    if (body.attribute("convex_hull_of")) ++shape.unread;
+    XmlElement positions;
+    for (const XmlElement& input : body.child("vertices").children("input")) {
+      if (input.attribute("semantic") == "POSITION") positions = file.named_by(input, "source");
+    }
+    for (const XmlElement& element : body.children()) {
+      const std::string_view name = element.name();
+      if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
+          name == "trifans") {
+        ColladaPrimitive(file, element, positions, shape).read();
+      }
+    }
+  }
+  return shape;
+}
+
+}  // namespace gnbv

@@ -1,0 +1,423 @@
+// Files as programs write them, beside what the specifications show: the shape is the same, or the
+// file is refused by what it is.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sim/core/file.hpp"
+#include "tests/sim/mesh/mesh_files.hpp"
+
+namespace gnbv {
+namespace {
+
+using namespace test;
+
+constexpr std::array<std::array<int, 4>, 6> kSides = {
+    {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}};
+
+Vec3 corner(int i) { return Eigen::Vector3i((i >> 2) & 1, (i >> 1) & 1, i & 1).cast<double>(); }
+
+std::string rows(const char* before) {
+  std::string out;
+  for (int i = 0; i < 8; ++i) {
+    out += fmt::format("{}{} {} {}\n", before, corner(i).x(), corner(i).y(), corner(i).z());
+  }
+  return out;
+}
+
+std::string obj() {
+  std::string out = "# a cube\n" + rows("v ");
+  for (const auto& [a, b, c, d] : kSides) {
+    out += fmt::format("f {} {} {} {}\n", a + 1, b + 1, c + 1, d + 1);
+  }
+  return out;
+}
+
+std::string ply() {
+  std::string out =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n" +
+      rows("");
+  for (const auto& [a, b, c, d] : kSides) out += fmt::format("4 {} {} {} {}\n", a, b, c, d);
+  return out;
+}
+
+std::string stl() {
+  std::string out = "solid a cube\n";
+  for (const auto& side : kSides) {
+    out += " facet normal 0 0 0\n  outer loop\n";
+    for (const int i : side) {
+      out += fmt::format("   vertex {} {} {}\n", corner(i).x(), corner(i).y(), corner(i).z());
+    }
+    out += "  endloop\n endfacet\n";
+  }
+  return out + "endsolid a cube\n";
+}
+
+std::string dae() {
+  std::string p;
+  for (const auto& [a, b, c, d] : kSides) p += fmt::format(" {} {} {} {}", a, b, c, d);
+  std::string positions = rows("");
+  return R"(<?xml version="1.0"?>
+<COLLADA version="1.4.1"><asset><up_axis>Z_UP</up_axis></asset>
+<library_images><image id="i"><init_from>t.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON><technique sid="t"><phong><diffuse>
+<color>1 0 0 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="24">)" +
+         positions + R"(</float_array><technique_common><accessor source="#a" count="8" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source>
+<source id="n"><float_array id="na" count="3">0 0 1</float_array></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist count="6"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4 4 4 4 4 4</vcount>
+<p>)" + p +
+         R"(</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="o"><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+)";
+}
+
+std::string data_uri(const std::string& bytes) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  std::string out = "data:application/octet-stream,";
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
+  }
+  return out;
+}
+
+/// A triangle (0,0,0) (1,0,0) (0,1,0), three numbers of `T` a corner, and what else stands in the
+/// file: of the node, the mesh, the primitive and the root.
+struct Gltf {
+  std::string node, mesh, primitive, root;
+  std::string position = R"("bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3")";
+  std::string indices = R"("bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR")";
+  std::string more_accessors, more_views, more_bytes;
+  std::string uri;
+
+  std::string bytes() const {
+    std::string out;
+    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+      append_bytes(out, x);
+    return out + std::string("\0\1\2\0", 4) + more_bytes;
+  }
+  std::string json() const {
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
+"nodes": [{{"mesh": 0{}}}, {{"scale": [2, 2, 2]}}],
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0{}}}, "indices": 1}}]{}}}],
+"accessors": [{{{}}}, {{{}}}{}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}},
+ {{"buffer": 0, "byteOffset": 36, "byteLength": 3}}{}],
+"buffers": [{{"byteLength": {}, "uri": "{}"}}]{}}})",
+        node, primitive, mesh, position, indices, more_accessors, more_views, bytes().size(),
+        uri.empty() ? data_uri(bytes()) : uri, root);
+  }
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return at == text.npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string in_utf16(const std::string& text, bool is_big, bool has_mark) {
+  std::string out = has_mark ? (is_big ? "\xFE\xFF" : "\xFF\xFE") : "";
+  for (const char c : text) out += is_big ? std::string{'\0', c} : std::string{c, '\0'};
+  return out;
+}
+
+std::string with_ends(const std::string& text, const std::string& end) {
+  std::string out;
+  for (const char c : text) c == '\n' ? out += end : out += c;
+  return out;
+}
+
+class MeshVariant : public MeshFile {
+ protected:
+  MeshReading read(const std::string& name, const std::string& content) {
+    return read_mesh(file(write(name, content)));
+  }
+  std::string fault(const std::string& name, const std::string& content) {
+    return complaint(file(write(name, content)));
+  }
+  /// The unit cube, in any order.
+  void expect_cube(const std::string& name, const std::string& content, const std::string& what) {
+    try {
+      const MeshReading found = read(name, content);
+      EXPECT_EQ(found.mesh.faces.size(), 12U) << what;
+      EXPECT_NEAR(surface_area_m2(found.mesh), 6.0, 1e-5) << what;
+      EXPECT_TRUE(bounds_m(found.mesh).isApprox(Box3(Vec3::Zero(), Vec3::Ones()), 1e-6)) << what;
+    } catch (const BadInput& error) {
+      ADD_FAILURE() << what << ": " << error.what();
+    }
+  }
+  /// Extent of the triangle of a glTF file: x, z up, and its area.
+  void expect_triangle(const Gltf& gltf, const Box3& box_m, double area_m2, const char* what) {
+    const MeshReading found = read("t.gltf", gltf.json());
+    EXPECT_TRUE(bounds_m(found.mesh).isApprox(box_m, 1e-6))
+        << what << bounds_m(found.mesh).max().transpose();
+    EXPECT_NEAR(surface_area_m2(found.mesh), area_m2, 1e-6) << what;
+  }
+};
+
+TEST_F(MeshVariant, EncodingAndLineEndsDoNotMatter) {
+  for (const auto& [name, text] : {std::pair("t.obj", obj()), std::pair("t.ply", ply()),
+                                   std::pair("t.stl", stl()), std::pair("t.dae", dae())}) {
+    expect_cube(name, text, name);
+    expect_cube(name, "\xEF\xBB\xBF" + text, std::string(name) + " with a byte order mark");
+    expect_cube(name, with_ends(text, "\r\n"), std::string(name) + " with CR LF");
+    expect_cube(name, with_ends(text, "\r"), std::string(name) + " with CR");
+    for (const bool is_big : {false, true}) {
+      expect_cube(name, in_utf16(text, is_big, true), std::string(name) + " in UTF-16");
+      expect_cube(name, in_utf16(with_ends(text, "\r\n"), is_big, true),
+                  std::string(name) + " in UTF-16 with CR LF");
+    }
+  }
+  expect_triangle({}, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "plain");
+  EXPECT_EQ(read("t.gltf", "\xEF\xBB\xBF" + Gltf{}.json()).mesh.faces.size(), 1U);
+  EXPECT_EQ(read("t.gltf", in_utf16(Gltf{}.json(), false, true)).mesh.faces.size(), 1U);
+}
+
+TEST_F(MeshVariant, AnObjsShapeNeedsNoneOfItsOtherStatements) {
+  for (const std::string line :
+       {"# saved in C:\\models\\", "vn -1.#IND nan x", "vt 0 x", "vt", "shadow_obj other.obj",
+        "trace_obj other.obj", "vcolor 1 0 0", "Kd 1 0 0", "v_weight 3", "g a #1", "o \xC3\xA9"}) {
+    expect_cube("t.obj", line + "\n" + obj(), line);
+    expect_cube("t.obj", replaced(obj(), "v 0 1 1\n", line + "\nv 0 1 1\n"), line);
+    expect_cube("t.obj", obj() + line, line);
+  }
+  expect_cube("t.obj", replaced(obj(), "f 1 2 4 3\n", "f 1 2 4 3 # bottom \\\n"), "comment");
+  expect_cube("t.obj", replaced(obj(), "v 0 1 1\n", "v 0 1 1 #here\n"), "comment");
+  write("a.mtl", "newmtl red\nKd 1 0 0\n");
+  write("b.mtl", "newmtl blue\nKd 0 0 1\n");
+  const MeshReading two = read("t.obj", "mtllib a.mtl b.mtl\nusemtl blue # the sky\n" + obj());
+  EXPECT_EQ(two.mesh.materials.at(0).rgb, (std::array{0.0F, 0.0F, 1.0F}));
+  EXPECT_TRUE(two.warnings.empty());
+}
+
+TEST_F(MeshVariant, WhatIsLeftOutIsCounted) {
+  const auto expect_lost = [&](const std::string& name, const std::string& text, std::size_t count,
+                               const char* says_so) {
+    const MeshReading found = read(name, text);
+    EXPECT_EQ(found.lost_faces, count) << says_so;
+    ASSERT_FALSE(found.warnings.empty()) << says_so;
+    EXPECT_TRUE(says(found.warnings.back(), {says_so}));
+  };
+  expect_lost("t.obj", obj() + "f 1 2 99\n", 1, "vertices that do not exist");
+  expect_lost("t.obj", obj() + "f 1 2\n", 1, "unreadable lines");
+  expect_lost("t.obj", obj() + "cstype bspline\nsurf 0 1 0 1 1 2 3 4\nend\n", 1, "no polygons");
+  expect_lost("t.ply", replaced(ply(), "4 0 1 3 2", "4 0 1 3 8"), 1, "vertices that do not exist");
+  expect_lost("t.ply", ply() + "4 0 1 3 2\n", 1, "1 rows after all");
+  expect_lost("t.stl", replaced(stl(), "   vertex 0 0 0\n   vertex 0 0 1\n", ""), 1,
+              "fewer than three vertices");
+  expect_lost("t.dae", replaced(dae(), "0 1 3 2", "0 1 3 8"), 1, "vertices that do not exist");
+  expect_lost("t.dae", replaced(dae(), "</node>", "<instance_geometry url='b.dae#g'/></node>"), 1,
+              "not in this file");
+  Gltf beyond;
+  beyond.indices = R"("bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR")";
+  beyond.more_bytes = "unused";
+  expect_lost("t.gltf",
+              replaced(replaced(beyond.json(), "\"byteLength\": 3}", "\"byteLength\": 6}"),
+                       "%00%75", "%00%03"),
+              1, "vertices that do not exist");
+}
+
+TEST_F(MeshVariant, AnStlIsItsTriangles) {
+  expect_cube("t.stl", replaced(stl(), "normal 0 0 0", "normal #IND00e+000 -1.#IND nan"), "normal");
+  expect_cube("t.stl", replaced(stl(), "facet normal 0 0 0", "FACET"), "no normal");
+  expect_cube("t.stl", with_ends(stl(), " \n\n\t"), "blanks");
+  const std::string whole = stl();
+  EXPECT_TRUE(
+      says(fault("t.stl", whole.substr(0, whole.rfind("vertex"))), {"ends within a facet"}));
+  EXPECT_TRUE(says(fault("t.stl", replaced(whole, "vertex 0 1 1", "vertex 0 x 1")),
+                   {"t.stl:6: a vertex without three coordinates"}));
+  const MeshReading cut = read("t.stl", whole.substr(0, whole.find("endsolid")));
+  ASSERT_EQ(cut.warnings.size(), 1U);
+  EXPECT_TRUE(says(cut.warnings[0], {"may be cut off"}));
+  std::string bytes(80, 'x');
+  append_bytes(bytes, std::uint32_t{1});
+  for (const float x : {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+    append_bytes(bytes, x);
+  append_bytes(bytes, std::uint16_t{0});
+  const MeshReading longer = read("t.stl", bytes + "trailer");
+  EXPECT_EQ(longer.mesh.faces.size(), 1U);
+  ASSERT_EQ(longer.warnings.size(), 1U);
+  EXPECT_TRUE(says(longer.warnings[0], {"7 bytes after the 1 triangles"}));
+  EXPECT_TRUE(says(fault("t.stl", bytes.substr(0, 100)), {"ends after 0 of the 1 triangles"}));
+}
+
+TEST_F(MeshVariant, APlyIsReadByItsHeader) {
+  expect_cube("t.ply", replaced(ply(), "vertex_indices", "vertex_indexes"), "vertex_indexes");
+  expect_cube("t.ply", replaced(replaced(ply(), "float x", "float X"), "float z", "float Z"), "X");
+  const std::string with_normals = replaced(ply(), "float z\n", "float z\nproperty float nx\n");
+  std::string text = with_normals;
+  for (std::size_t at = text.find("end_header\n") + 10, i = 0; i < 8; ++i) {
+    at = text.find('\n', at + 1);
+    text.insert(at, " -1.#IND");
+    at = text.find('\n', at);
+  }
+  expect_cube("t.ply", text, "normals that are no numbers");
+  expect_cube("t.ply", ply() + "7 8\n9\n", "rows after the end");
+  expect_cube("t.ply", replaced(ply(), "end_header", "element edge 1\nproperty int a\nend_header"),
+              "an element of no shape that is cut off");
+  EXPECT_TRUE(says(fault("t.ply", replaced(ply(), "4 0 1 3 2", "4 0 1 3 2 7")),
+                   {"t.ply:18: a row of 'face' has more words"}));
+  EXPECT_TRUE(says(fault("t.ply", replaced(ply(), "property float z\n", "")), {"no property 'z'"}));
+  EXPECT_TRUE(says(fault("t.ply", replaced(ply(), "vertex_indices", "corners")), {"'corners'"}));
+  const std::string strips =
+      replaced(replaced(ply(), "element face 6", "element tristrips 1"), "uchar int", "int int");
+  const std::string body = strips.substr(0, strips.find("4 0 1 3 2"));
+  const MeshReading strip = read("t.ply", body + "11 0 1 2 3 6 7 -1 0 4 1 5\n");
+  EXPECT_EQ(strip.mesh.faces.size(), 6U);
+  EXPECT_EQ(strip.mesh.faces[1], (std::array<std::uint32_t, 3>{2, 1, 3}));  // the same sense
+  EXPECT_NEAR(surface_area_m2(strip.mesh), 3.0, 1e-6);
+}
+
+TEST_F(MeshVariant, AColladasShapeNeedsNoLooksAndNoOneDialect) {
+  const std::string image = "<init_from>t.png</init_from>";
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {image, ""},
+           {image, "<init_from/>"},
+           {image, "<init_from></init_from>"},
+           {"<image id=\"i\">" + image + "</image>", "<image/>"},
+           {"<color>1 0 0 1</color>", "<color>\n 1 0 0 1</color>"},
+           {"<color>1 0 0 1</color>", "<color>red</color>"},
+           {"<color>1 0 0 1</color>", "<texture/>"},
+           {" count=\"24\"", ""},
+           {"count=\"6\"", "count=\"many\""},
+           {"0 0 1</float_array></source>", "0 0 nought</float_array></source>"},
+           {"Z_UP", "\n  Z_UP <!-- up -->\n"},
+           {"<p> 0", "<p><!-- sides --> 0"},
+           {"url=\"#g\"", "url=\" #g \""},
+           {"<node id=\"o\">", "<node id=\"o\" name=\"a & b\">"}}) {
+    expect_cube("t.dae", replaced(dae(), from, to), to);
+  }
+  std::string prefixed = replaced(dae(), "<COLLADA", "<COLLADA xmlns:c='urn:c'");
+  for (std::size_t at = 0; (at = prefixed.find('<', at)) != prefixed.npos; ++at) {
+    if (prefixed[at + 1] != '?') prefixed.insert(at + (prefixed[at + 1] == '/' ? 2 : 1), "c:");
+  }
+  expect_cube("t.dae", prefixed, "a prefix");
+  EXPECT_TRUE(says(fault("t.dae", replaced(dae(), "<instance_geometry url=\"#g\"/>",
+                                           "<instance_node url=\"#o\"/>")),
+                   {"t.dae:", "the node 'o' is within itself"}));
+  EXPECT_TRUE(says(fault("t.dae", dae().substr(0, 900)), {"t.dae:"}));
+  const std::string holed = replaced(dae(), "</polylist>",
+                                     "</polylist><polygons count='1'><input semantic='VERTEX' "
+                                     "source='#w' offset='0'/><ph><p>0 1 2 "
+                                     "3</p><h>4 5 6 7</h></ph></polygons>");
+  const std::string ring = replaced(
+      replaced(holed, "<vertices id",
+               "<source id='q'><float_array id='b'>0 0 0 3 0 0 3 3 0 0 3 0 1 1 0 2 1 0 2 2 0 1 2 0"
+               "</float_array></source><vertices id='w'><input semantic='POSITION' source='#q'/>"
+               "</vertices><vertices id"),
+      "source='#w'", "source='#v'");
+  // the positions of the first <vertices> are the mesh's own
+  const MeshReading found = read(
+      "t.dae",
+      replaced(replaced(ring,
+                        "<vertices id='w'><input semantic='POSITION' source='#q'/></vertices>", ""),
+               "semantic='VERTEX' source='#v'", "semantic='POSITION' source='#q'"));
+  EXPECT_NEAR(surface_area_m2(found.mesh), 6.0 + 8.0, 1e-6);
+}
+
+TEST_F(MeshVariant, GltfShapesAreAsTheSceneShowsThem) {
+  Gltf morphed;
+  morphed.mesh = R"(, "weights": [0.5])";
+  std::string text =
+      replaced(morphed.json(), "\"indices\": 1", R"("indices": 1, "targets": [{"POSITION": 0}])");
+  EXPECT_NEAR(surface_area_m2(read("t.gltf", text).mesh), 0.5 * 1.5 * 1.5, 1e-6);
+  text = replaced(text, "\"mesh\": 0", R"("mesh": 0, "weights": [1])");
+  EXPECT_NEAR(surface_area_m2(read("t.gltf", text).mesh), 0.5 * 4.0, 1e-6);
+
+  Gltf skinned;  // wholly by the second node, whose scale is 2
+  skinned.node = R"(, "skin": 0, "translation": [5, 0, 0])";
+  skinned.root = R"(, "skins": [{"joints": [1]}])";
+  skinned.primitive = R"(, "JOINTS_0": 2, "WEIGHTS_0": 3)";
+  skinned.more_accessors =
+      R"(, {"componentType": 5121, "count": 3, "type": "VEC4"},
+ {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"})";
+  skinned.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 48})";
+  for (int i = 0; i < 3; ++i) {
+    for (const float weight : {1.0F, 0.0F, 0.0F, 0.0F}) append_bytes(skinned.more_bytes, weight);
+  }
+  expect_triangle(skinned, Box3(Vec3(0, 0, 0), Vec3(2, 0, 2)), 2.0, "skin");
+
+  Gltf spread;
+  spread.node =
+      R"(, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}})";
+  spread.root = R"(, "extensionsRequired": ["EXT_mesh_gpu_instancing"])";
+  expect_triangle(spread, Box3(Vec3(0, 0, 0), Vec3(2, 0, 2)), 1.5, "three instances");
+
+  Gltf quantized;
+  quantized.position = R"("bufferView": 2, "componentType": 5122, "count": 3, "type": "VEC3",
+ "normalized": true)";
+  quantized.root = R"(, "extensionsRequired": ["KHR_mesh_quantization", "KHR_texture_basisu"])";
+  quantized.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 24, "byteStride": 8})";
+  for (const int x : {0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}) {
+    append_bytes(quantized.more_bytes, static_cast<std::int16_t>(x));
+  }
+  expect_triangle(quantized, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "quantized");
+  quantized.position.resize(quantized.position.find(",\n"));
+  expect_triangle(quantized, Box3(Vec3(0, 0, 0), Vec3(32767, 0, 32767)), 0.5 * 32767.0 * 32767.0,
+                  "integers");
+}
+
+TEST_F(MeshVariant, GltfContainersAreReadAsTheyAre) {
+  Gltf apart;
+  apart.uri = "with%20blank.bin";
+  write("with blank.bin", apart.bytes());
+  expect_triangle(apart, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "percent-encoded");
+  std::string json =
+      replaced(Gltf{}.json(), "\"uri\": \"" + data_uri(Gltf{}.bytes()) + "\"", "\"name\": \"b\"");
+  while (json.size() % 4 != 1) json += ' ';  // no multiple of four
+  std::string glb = "glTF";
+  append_bytes(glb, std::uint32_t{2});
+  append_bytes(glb, static_cast<std::uint32_t>(28 + json.size() + Gltf{}.bytes().size()));
+  append_bytes(glb, static_cast<std::uint32_t>(json.size()));
+  glb += "JSON" + json;
+  append_bytes(glb, static_cast<std::uint32_t>(Gltf{}.bytes().size()));
+  glb += std::string("BIN\0", 4) + Gltf{}.bytes();
+  EXPECT_EQ(read("t.glb", glb).mesh.faces.size(), 1U);
+  EXPECT_TRUE(says(fault("t.glb", glb.substr(0, glb.size() - 9)), {"is cut off"}));
+  const std::string whole = Gltf{}.json();
+  for (const auto& [text, what] : std::vector<std::pair<std::string, const char*>>{
+           {replaced(whole, "\"2.0\"", "\"1.0\""), "is glTF 1"},
+           {replaced(whole, "\"buffers\"", R"("extensionsRequired": ["X_new"], "buffers")"),
+            "requires the extension X_new"},
+           {replaced(whole, "\"buffers\"",
+                     R"("extensionsRequired": ["KHR_draco_mesh_compression"], "buffers")"),
+            "is compressed (KHR_draco_mesh_compression)"},
+           {replaced(whole, "\"buffers\"",
+                     R"("extensionsRequired": ["EXT_meshopt_compression"], "buffers")"),
+            "is compressed (EXT_meshopt_compression)"},
+           {replaced(whole, "\"scale\": [2, 2, 2]", "\"children\": [1]"), "its own ancestor"},
+           {replaced(whole, "\"count\": 3", "\"count\": 4"), "reaches beyond"},
+           {replaced(whole, "\"count\": 3", "\"count\": -1"), "'count' is -1"},
+           {replaced(whole, "\"mesh\": 0", "\"mesh\": 7"), "meshes[7], which does not exist"},
+           {whole.substr(0, 200), "is no JSON"},
+           {"[]", "no object"}}) {
+    EXPECT_TRUE(says(fault("t.gltf", text), {what})) << what;
+  }
+}
+
+TEST_F(MeshVariant, AFileOfAnotherKindIsCalledByItsName) {
+  const std::string lfs = "version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 9\n";
+  for (const char* name : {"t.obj", "t.ply", "t.stl", "t.dae", "t.gltf", "t.glb"}) {
+    EXPECT_TRUE(says(fault(name, lfs), {"is a Git LFS pointer", "git lfs pull"})) << name;
+    EXPECT_TRUE(says(fault(name, "\n<!DOCTYPE html>\n<html></html>"), {"is an HTML page"})) << name;
+    EXPECT_TRUE(says(fault(name, "PK\x03\x04rest"), {"is a ZIP archive"})) << name;
+    if (std::string_view(name) == "t.dae") continue;
+    EXPECT_TRUE(says(fault(name, dae()), {"name it .dae"})) << name;
+  }
+  for (const char* name : {"t.xyz", "t.pcd", "t.las"}) {
+    EXPECT_TRUE(says(fault(name, "1 2 3\n"), {"is a point cloud", "gnbv score"})) << name;
+  }
+  EXPECT_TRUE(says(fault("t.obj", rows("v ")), {"only 8 points", "gnbv score"}));
+}
+
+}  // namespace
+}  // namespace gnbv
