@@ -118,6 +118,19 @@ def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
     assert own['difference_ci95'] == pytest.approx((high - low) / 2)
 
 
+def test_rows_of_one_scenario_around_two_structures_are_of_two(run, tmp_path):
+    columns = ['id', 'scenario', 'structure', 'structure_sha256', 'method', 'setting', 'commit',
+               'program', 'termination', 'result_sha256', 'seed', 'within_coverage_0.05']
+    for structure in ('aircraft', 'a340.obj'):
+        write_rows(tmp_path / f'{structure}.csv', [
+            dict(zip(columns, (f'{structure}{method}{seed}', 'aircraft', structure, '', method, '', 'c',
+                               'p', 'max_iterations', f'{method}{seed}', seed, 0.9)))
+            for method in ('base', 'own') for seed in (1, 2)])
+    table = run('compare --from aircraft.csv a340.obj.csv --baseline base --format json').json
+    assert {'aircraft', 'a340.obj'} <= {row['scenario'] for row in table['rows']}
+    run('compare --from aircraft.csv aircraft.csv', 'two rows of aircraft, base, seed 1', code=2)
+
+
 def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
     for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
         drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json

@@ -175,10 +175,10 @@ BenchRuns read_rows(const std::vector<fs::path>& csvs) {
   for (const fs::path& csv : csvs) {
     std::ranges::move(read_missions(csv), std::back_inserter(runs.rows));
   }
-  std::set<std::string> seen;
+  std::set<std::pair<std::string, std::string>> seen;
   for (const MissionRow& row : runs.rows) {
-    const std::string key = row_name(row);
-    if (!seen.insert(key).second) throw BadInput(fmt::format("two rows of {}", key));
+    const std::string name = row_name(row);
+    if (!seen.emplace(row.structure, name).second) throw BadInput("two rows of " + name);
   }
   runs.folders.resize(runs.rows.size());
   add_endings(runs);
