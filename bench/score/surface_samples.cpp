@@ -80,4 +80,11 @@ std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spaci
   return samples;
 }
 
+std::vector<SurfaceSample> sample_about(const TriangleMesh& mesh, double count) {
+  if (mesh.faces.empty()) return {};
+  const double spacing_m =
+      std::max(std::sqrt(surface_area_m2(mesh) / count), bounds_m(mesh).diagonal().norm() / count);
+  return spacing_m > 0.0 ? sample_surface(mesh, spacing_m) : std::vector<SurfaceSample>();
+}
+
 }  // namespace gnbv

@@ -21,4 +21,8 @@ struct SurfaceSample {
 /// their length.
 std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, double spacing_m);
 
+/// About `count` samples, at least one a face; of a sliver, however long, at most twice as many.
+/// None of a mesh without extent.
+std::vector<SurfaceSample> sample_about(const TriangleMesh& mesh, double count);
+
 }  // namespace gnbv

@@ -234,8 +234,16 @@ def test_ctrl_c_ends_a_wait_and_what_is_left_says_so():
 
 BAD = [
     ("single", [np.zeros(3), np.zeros((1, 4)), np.full(4, np.nan), [0, 0, np.inf, 0], None, "up"]),
-    ("vector", [np.zeros((1, 4)), np.zeros((3, 4)), np.zeros(4), [[0] * 4, [np.nan] * 4],
-                [[0] * 4, [0] * 3]]),
+    (
+        "vector",
+        [
+            np.zeros((1, 4)),
+            np.zeros((3, 4)),
+            np.zeros(4),
+            [[0] * 4, [np.nan] * 4],
+            [[0] * 4, [0] * 3],
+        ],
+    ),
 ]
 
 

@@ -60,8 +60,7 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
     if (lint.is_sound[i]) is_two_sided.push_back(lint.is_two_sided[i]);
   }
   const RayScene scene(world);
-  const std::vector<SurfaceSample> samples =
-      sample_surface(mesh, std::sqrt(view.area_m2 / kSamples));
+  const std::vector<SurfaceSample> samples = sample_about(mesh, kSamples);
   ReferenceConfig config;
   // more samples, each of less surface, get by with fewer directions
   constexpr double kFewest = 128.0;

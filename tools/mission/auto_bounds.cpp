@@ -120,9 +120,7 @@ double flight_margin_m(const Scenario& scenario) {
 StructureExtent extent_of(const TriangleMesh& structure) {
   constexpr double kSamples = 2000.0;
   StructureExtent extent{.box_m = bounds_m(structure), .surface_world_m = {}};
-  const double area_m2 = surface_area_m2(structure);
-  if (area_m2 <= 0.0) return extent;
-  for (const SurfaceSample& s : sample_surface(structure, std::sqrt(area_m2 / kSamples))) {
+  for (const SurfaceSample& s : sample_about(structure, kSamples)) {
     extent.surface_world_m.push_back(s.p_world_m);
   }
   return extent;

@@ -257,5 +257,21 @@ TEST(PointTree, FindsWhatASearchOfAllFindsAndOfPointsEquallyFarTheFirstOnes) {
   }
 }
 
+TEST(SampleAbout, HasAboutSoManyOfASquareAndAtMostTwiceOfASliverHoweverLong) {
+  TriangleMesh square;
+  square.vertices_m = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  square.faces = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_NEAR(static_cast<double>(sample_about(square, 2000.0).size()), 2000.0, 200.0);
+  for (const float length_m : {1e3F, 1e9F, 1e30F}) {
+    TriangleMesh sliver;
+    sliver.vertices_m = {{0, 0, 0}, {length_m, 0, 0}, {0, 1, 0}};
+    sliver.faces = {{0, 1, 2}};
+    const std::size_t count = sample_about(sliver, 2000.0).size();
+    EXPECT_GE(count, 1000U) << length_m;
+    EXPECT_LE(count, 4000U) << length_m;
+  }
+  EXPECT_TRUE(sample_about({}, 2000.0).empty());
+}
+
 }  // namespace
 }  // namespace gnbv
