@@ -31,9 +31,9 @@ struct OnboardSettings {
   PlannerConfig planner = {};                  // planner.utility.name chooses the planner
   std::optional<OnboardUtility> utility = {};  // instead of the one that `planner` names
   NoFly no_fly = {};
-  TravelConfig travel = {};
-  std::uint64_t seed = 0;  // of what a planner leaves to chance
-  int threads = 1;         // no answer depends on it
+  TravelConfig travel = {};  // how fast the vehicle is; tours in seconds ask
+  std::uint64_t seed = 0;    // of what a planner leaves to chance
+  int threads = 1;           // no answer depends on it
   /// Asked several times a second while a view is planned, by any thread. Where it says yes,
   /// next_view() throws StopRequested.
   std::function<bool()> should_stop = {};

@@ -5,7 +5,8 @@
 
 namespace gnbv {
 
-/// Metres or radians, and the limits in the same unit.
+/// Seconds for a distance of 0 or more, in m or rad, with limits above 0 in the same unit: a
+/// trapezoid of speed, or a triangle where it is too short for that.
 inline double rest_to_rest_s(double distance, double speed, double acceleration) {
   const double ramps = speed * speed / acceleration;
   return distance < ramps ? 2.0 * std::sqrt(distance / acceleration)
