@@ -71,4 +71,16 @@ inline std::vector<std::array<float, 12>> coloured_triangles(const TriangleMesh&
   return out;
 }
 
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return at == text.npos ? text : text.replace(at, from.size(), to);
+}
+
+inline std::string in_utf16(const std::string& text, bool is_big, bool has_mark) {
+  std::string out = has_mark ? (is_big ? "\xFE\xFF" : "\xFF\xFE") : "";
+  for (const char c : text) out += is_big ? std::string{'\0', c} : std::string{c, '\0'};
+  return out;
+}
+
 }  // namespace gnbv::test

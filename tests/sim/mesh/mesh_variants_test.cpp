@@ -79,57 +79,6 @@ std::string dae() {
 )";
 }
 
-std::string data_uri(const std::string& bytes) {
-  constexpr std::string_view kHex = "0123456789ABCDEF";
-  std::string out = "data:application/octet-stream,";
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
-  }
-  return out;
-}
-
-/// A triangle (0,0,0) (1,0,0) (0,1,0), three numbers of `T` a corner, and what else stands in the
-/// file: of the node, the mesh, the primitive and the root.
-struct Gltf {
-  std::string node, mesh, primitive, root;
-  std::string position = R"("bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3")";
-  std::string indices = R"("bufferView": 1, "componentType": 5121, "count": 3, "type": "SCALAR")";
-  std::string more_accessors, more_views, more_bytes;
-  std::string uri;
-
-  std::string bytes() const {
-    std::string out;
-    for (const float x : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
-      append_bytes(out, x);
-    return out + std::string("\0\1\2\0", 4) + more_bytes;
-  }
-  std::string json() const {
-    return fmt::format(
-        R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1]}}],
-"nodes": [{{"mesh": 0{}}}, {{"scale": [2, 2, 2]}}],
-"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0{}}}, "indices": 1}}]{}}}],
-"accessors": [{{{}}}, {{{}}}{}],
-"bufferViews": [{{"buffer": 0, "byteLength": 36}},
- {{"buffer": 0, "byteOffset": 36, "byteLength": 3}}{}],
-"buffers": [{{"byteLength": {}, "uri": "{}"}}]{}}})",
-        node, primitive, mesh, position, indices, more_accessors, more_views, bytes().size(),
-        uri.empty() ? data_uri(bytes()) : uri, root);
-  }
-};
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, text.npos) << from;
-  return at == text.npos ? text : text.replace(at, from.size(), to);
-}
-
-std::string in_utf16(const std::string& text, bool is_big, bool has_mark) {
-  std::string out = has_mark ? (is_big ? "\xFE\xFF" : "\xFF\xFE") : "";
-  for (const char c : text) out += is_big ? std::string{'\0', c} : std::string{c, '\0'};
-  return out;
-}
-
 std::string with_ends(const std::string& text, const std::string& end) {
   std::string out;
   for (const char c : text) c == '\n' ? out += end : out += c;
@@ -155,13 +104,6 @@ class MeshVariant : public MeshFile {
       ADD_FAILURE() << what << ": " << error.what();
     }
   }
-  /// Extent of the triangle of a glTF file: x, z up, and its area.
-  void expect_triangle(const Gltf& gltf, const Box3& box_m, double area_m2, const char* what) {
-    const MeshReading found = read("t.gltf", gltf.json());
-    EXPECT_TRUE(bounds_m(found.mesh).isApprox(box_m, 1e-6))
-        << what << bounds_m(found.mesh).max().transpose();
-    EXPECT_NEAR(surface_area_m2(found.mesh), area_m2, 1e-6) << what;
-  }
 };
 
 TEST_F(MeshVariant, EncodingAndLineEndsDoNotMatter) {
@@ -177,9 +119,6 @@ TEST_F(MeshVariant, EncodingAndLineEndsDoNotMatter) {
                   std::string(name) + " in UTF-16 with CR LF");
     }
   }
-  expect_triangle({}, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "plain");
-  EXPECT_EQ(read("t.gltf", "\xEF\xBB\xBF" + Gltf{}.json()).mesh.faces.size(), 1U);
-  EXPECT_EQ(read("t.gltf", in_utf16(Gltf{}.json(), false, true)).mesh.faces.size(), 1U);
 }
 
 TEST_F(MeshVariant, AnObjsShapeNeedsNoneOfItsOtherStatements) {
@@ -217,13 +156,6 @@ TEST_F(MeshVariant, WhatIsLeftOutIsCounted) {
   expect_lost("t.dae", replaced(dae(), "0 1 3 2", "0 1 3 8"), 1, "vertices that do not exist");
   expect_lost("t.dae", replaced(dae(), "</node>", "<instance_geometry url='b.dae#g'/></node>"), 1,
               "not in this file");
-  Gltf beyond;
-  beyond.indices = R"("bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR")";
-  beyond.more_bytes = "unused";
-  expect_lost("t.gltf",
-              replaced(replaced(beyond.json(), "\"byteLength\": 3}", "\"byteLength\": 6}"),
-                       "%00%75", "%00%03"),
-              1, "vertices that do not exist");
 }
 
 TEST_F(MeshVariant, AnStlIsItsTriangles) {
@@ -322,86 +254,6 @@ TEST_F(MeshVariant, AColladasShapeNeedsNoLooksAndNoOneDialect) {
                         "<vertices id='w'><input semantic='POSITION' source='#q'/></vertices>", ""),
                "semantic='VERTEX' source='#v'", "semantic='POSITION' source='#q'"));
   EXPECT_NEAR(surface_area_m2(found.mesh), 6.0 + 8.0, 1e-6);
-}
-
-TEST_F(MeshVariant, GltfShapesAreAsTheSceneShowsThem) {
-  Gltf morphed;
-  morphed.mesh = R"(, "weights": [0.5])";
-  std::string text =
-      replaced(morphed.json(), "\"indices\": 1", R"("indices": 1, "targets": [{"POSITION": 0}])");
-  EXPECT_NEAR(surface_area_m2(read("t.gltf", text).mesh), 0.5 * 1.5 * 1.5, 1e-6);
-  text = replaced(text, "\"mesh\": 0", R"("mesh": 0, "weights": [1])");
-  EXPECT_NEAR(surface_area_m2(read("t.gltf", text).mesh), 0.5 * 4.0, 1e-6);
-
-  Gltf skinned;  // wholly by the second node, whose scale is 2
-  skinned.node = R"(, "skin": 0, "translation": [5, 0, 0])";
-  skinned.root = R"(, "skins": [{"joints": [1]}])";
-  skinned.primitive = R"(, "JOINTS_0": 2, "WEIGHTS_0": 3)";
-  skinned.more_accessors =
-      R"(, {"componentType": 5121, "count": 3, "type": "VEC4"},
- {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"})";
-  skinned.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 48})";
-  for (int i = 0; i < 3; ++i) {
-    for (const float weight : {1.0F, 0.0F, 0.0F, 0.0F}) append_bytes(skinned.more_bytes, weight);
-  }
-  expect_triangle(skinned, Box3(Vec3(0, 0, 0), Vec3(2, 0, 2)), 2.0, "skin");
-
-  Gltf spread;
-  spread.node =
-      R"(, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}})";
-  spread.root = R"(, "extensionsRequired": ["EXT_mesh_gpu_instancing"])";
-  expect_triangle(spread, Box3(Vec3(0, 0, 0), Vec3(2, 0, 2)), 1.5, "three instances");
-
-  Gltf quantized;
-  quantized.position = R"("bufferView": 2, "componentType": 5122, "count": 3, "type": "VEC3",
- "normalized": true)";
-  quantized.root = R"(, "extensionsRequired": ["KHR_mesh_quantization", "KHR_texture_basisu"])";
-  quantized.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 24, "byteStride": 8})";
-  for (const int x : {0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}) {
-    append_bytes(quantized.more_bytes, static_cast<std::int16_t>(x));
-  }
-  expect_triangle(quantized, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "quantized");
-  quantized.position.resize(quantized.position.find(",\n"));
-  expect_triangle(quantized, Box3(Vec3(0, 0, 0), Vec3(32767, 0, 32767)), 0.5 * 32767.0 * 32767.0,
-                  "integers");
-}
-
-TEST_F(MeshVariant, GltfContainersAreReadAsTheyAre) {
-  Gltf apart;
-  apart.uri = "with%20blank.bin";
-  write("with blank.bin", apart.bytes());
-  expect_triangle(apart, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "percent-encoded");
-  std::string json =
-      replaced(Gltf{}.json(), "\"uri\": \"" + data_uri(Gltf{}.bytes()) + "\"", "\"name\": \"b\"");
-  while (json.size() % 4 != 1) json += ' ';  // no multiple of four
-  std::string glb = "glTF";
-  append_bytes(glb, std::uint32_t{2});
-  append_bytes(glb, static_cast<std::uint32_t>(28 + json.size() + Gltf{}.bytes().size()));
-  append_bytes(glb, static_cast<std::uint32_t>(json.size()));
-  glb += "JSON" + json;
-  append_bytes(glb, static_cast<std::uint32_t>(Gltf{}.bytes().size()));
-  glb += std::string("BIN\0", 4) + Gltf{}.bytes();
-  EXPECT_EQ(read("t.glb", glb).mesh.faces.size(), 1U);
-  EXPECT_TRUE(says(fault("t.glb", glb.substr(0, glb.size() - 9)), {"is cut off"}));
-  const std::string whole = Gltf{}.json();
-  for (const auto& [text, what] : std::vector<std::pair<std::string, const char*>>{
-           {replaced(whole, "\"2.0\"", "\"1.0\""), "is glTF 1"},
-           {replaced(whole, "\"buffers\"", R"("extensionsRequired": ["X_new"], "buffers")"),
-            "requires the extension X_new"},
-           {replaced(whole, "\"buffers\"",
-                     R"("extensionsRequired": ["KHR_draco_mesh_compression"], "buffers")"),
-            "is compressed (KHR_draco_mesh_compression)"},
-           {replaced(whole, "\"buffers\"",
-                     R"("extensionsRequired": ["EXT_meshopt_compression"], "buffers")"),
-            "is compressed (EXT_meshopt_compression)"},
-           {replaced(whole, "\"scale\": [2, 2, 2]", "\"children\": [1]"), "its own ancestor"},
-           {replaced(whole, "\"count\": 3", "\"count\": 4"), "reaches beyond"},
-           {replaced(whole, "\"count\": 3", "\"count\": -1"), "'count' is -1"},
-           {replaced(whole, "\"mesh\": 0", "\"mesh\": 7"), "meshes[7], which does not exist"},
-           {whole.substr(0, 200), "is no JSON"},
-           {"[]", "no object"}}) {
-    EXPECT_TRUE(says(fault("t.gltf", text), {what})) << what;
-  }
 }
 
 TEST_F(MeshVariant, AFileOfAnotherKindIsCalledByItsName) {
