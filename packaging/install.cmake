@@ -5,8 +5,10 @@
 install(TARGETS gnbv RUNTIME COMPONENT program)
 # loaded when first needed: sim/core/module.cpp looks for them from where the program is
 install(TARGETS gnbv_symmetry gnbv_poisson LIBRARY DESTINATION lib/gnbv COMPONENT program)
-install(FILES README.md CHANGELOG.md DECISIONS.md FIDELITY.md DESTINATION share/doc/gnbv
+install(FILES README.md CHANGELOG.md FIDELITY.md DESTINATION share/doc/gnbv
   COMPONENT program)
+install(DIRECTORY docs DESTINATION share/doc/gnbv COMPONENT program
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(DIRECTORY bench/results DESTINATION share/doc/gnbv/bench COMPONENT program
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES LICENSE DESTINATION share/doc/gnbv RENAME copyright COMPONENT program)

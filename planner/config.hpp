@@ -40,7 +40,7 @@ struct PlannerConfig {
 /// The paper's text, and its code where the text is silent; the code that its authors released in
 /// 2017 (master, 5750058); the code behind the paper with its settings of 5 August 2018 (branch
 /// frontier_viewgenerator_update, e45ff3f). See FIDELITY.md. And ours: flown on from take-off
-/// without a profile (DECISIONS.md, 111), the paper's otherwise.
+/// without a profile (docs/decisions, 111), the paper's otherwise.
 constexpr std::string_view kTakeoff = "takeoff";
 constexpr std::array<std::string_view, 4> kPlannerPresets = {"paper", "released", "authors_2018",
                                                              kTakeoff};
