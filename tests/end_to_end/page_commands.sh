@@ -20,6 +20,7 @@ ln -s "$build" "$folder/page/build/release"
 ln -s "$root/examples" "$folder/page/examples"
 ln -s "$root/bench" "$folder/page/bench"
 export PATH=$build:$PATH PYTHONDONTWRITEBYTECODE=1
+GNBV_PYTHON=${GNBV_PYTHON:-python3}
 skip() { echo "page_commands: skipped: $page needs $*" >&2; exit 77; }
 
 for need in $(sed -n 's/^<!-- needs: \(.*\) -->$/\1/p' "$page" | tr -d ,); do
@@ -27,7 +28,9 @@ for need in $(sed -n 's/^<!-- needs: \(.*\) -->$/\1/p' "$page" | tr -d ,); do
     [[ -f $build/cmake_install.cmake ]] || skip "the folder where the program was built"
     continue
   fi
-  [[ ! -x $root/build/extras/bin/python ]] || PATH=$root/build/extras/bin:$PATH
+  python=${GNBV_EXTRAS_PYTHON:-$root/build/extras/bin/python}
+  [[ ! -x $python ]] || PATH=$(dirname "$python"):$PATH GNBV_PYTHON=$python
+  export GNBV_PYTHON
   if [[ $need == gnbv* ]] && ! python3 -c 'import gnbv' 2>/dev/null; then
     compgen -G "$build/tools/python/_core*.so" >/dev/null || skip "the Python package"
     cmake --install "$build" --component python --prefix "$folder/stage" >/dev/null
