@@ -12,7 +12,6 @@ install(DIRECTORY docs DESTINATION share/doc/gnbv COMPONENT program
 install(DIRECTORY bench/results DESTINATION share/doc/gnbv/bench COMPONENT program
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES LICENSE DESTINATION share/doc/gnbv RENAME copyright COMPONENT program)
-install(FILES scenarios/README.md DESTINATION share/doc/gnbv/scenarios COMPONENT program)
 
 # ---- the planner's library ------------------------------------------------------------------------
 get_property(libraries GLOBAL PROPERTY gnbv_installed_libraries)

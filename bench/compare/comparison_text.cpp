@@ -162,7 +162,7 @@ void add_effort_notes(std::vector<std::string>& notes, const Comparison& compari
       "largest; mean and difference: of all, where a run that did not counts as the budget; rank, "
       "p and verdict: of all, where it is worse than any that did; from take-off: since the "
       "mission "
-      "began in the air, with its profile; on one battery: with the way home (README.md)");
+      "began in the air, with its profile; on one battery: with the way home (docs/how/scores.md)");
   for (const auto& [scenario, names] : missed) {
     notes.push_back(fmt::format("{}: no run got to {}", comparison.scenarios[scenario],
                                 fmt::join(names, ", ")));

@@ -1,5 +1,5 @@
 // `--views -`: another planner sends views on stdin and gets one JSON line on stdout for each.
-// scenarios/README.md says what the lines hold.
+// docs/guides/own-views.md says what the lines hold.
 #pragma once
 
 #include <functional>

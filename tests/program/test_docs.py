@@ -1,0 +1,106 @@
+"""The documents: links lead somewhere, what is generated is fresh, every decision is in the index,
+man pages and completions know every command, and MkDocs builds the site where it is installed."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+from program import REPOSITORY
+
+FOLDERS = ('docs', 'bench/results', '.github')
+PAGES = sorted([*REPOSITORY.glob('*.md'), *(page for folder in FOLDERS
+                                            for page in (REPOSITORY / folder).rglob('*.md'))])
+DECISIONS = REPOSITORY / 'docs/decisions'
+
+
+def prose(page):
+    """The page without its code."""
+    text = re.sub(r'^```.*?^```', '', page.read_text(), flags=re.M | re.S)
+    return re.sub(r'`[^`\n]*`', 'code', text)
+
+
+def anchors(page):
+    """Of the headings, as code hosts and MkDocs name them."""
+    text = re.sub(r'^```.*?^```', '', page.read_text(), flags=re.M | re.S)
+    headings = re.findall(r'^#+ (.*)$', text, re.M)
+    return {re.sub(r'[^\w\- ]', '', re.sub(r'\[([^]]*)\]\([^)]*\)', r'\1', heading)).strip().lower()
+            .replace(' ', '-') for heading in headings}
+
+
+@pytest.mark.parametrize('page', PAGES, ids=lambda page: str(page.relative_to(REPOSITORY)))
+def test_links_lead_somewhere(page):
+    for link in re.findall(r'\]\(([^)\s]+)\)', prose(page)):
+        if re.match(r'\w+:', link):
+            continue
+        path, _, anchor = link.partition('#')
+        target = (page.parent / path).resolve() if path else page
+        assert target.exists(), f'{page}: {link}: no such file'
+        assert REPOSITORY in target.parents, f'{page}: {link} leaves the repository'
+        if anchor:
+            assert anchor in anchors(target), f'{page}: {link}: no such heading'
+
+
+def test_every_decision_is_in_the_index_with_its_title_and_status():
+    index = (DECISIONS / 'README.md').read_text()
+    files = sorted(DECISIONS.glob('[0-9]*.md'))
+    for file in files:
+        text = file.read_text()
+        number, title = re.match(r'# (\d+)\. (.*)\n', text).groups()
+        assert int(file.name[:4]) == int(number)
+        status = re.search(r'^- Status: ([\w ]+?)(?: by |: |$)', text, re.M)[1]
+        row = rf'^\| {number} \| \[{re.escape(title)}\]\({file.name}\) \| {status}'
+        assert re.search(row, index, re.M), file
+        assert re.search(r'^- Date: 2\d{3}-\d\d$', text, re.M) and '**Question.**' in text, file
+    assert len(re.findall(r'^\| \d+ \|', index, re.M)) == len(files)
+
+
+def docs(gnbv, *words):
+    return subprocess.run([sys.executable, REPOSITORY / 'tools/docs', *words], capture_output=True,
+                          text=True, env=os.environ | {'GNBV': str(gnbv.path)})
+
+
+def test_the_reference_pages_are_what_the_program_says(gnbv):
+    end = docs(gnbv, '--check')
+    assert end.returncode == 0, end.stderr
+
+
+def test_man_pages_and_completions_know_every_command_and_option(gnbv, run, tmp_path):
+    assert docs(gnbv, '--install', tmp_path).returncode == 0
+    bash = (tmp_path / 'bash-completion/completions/gnbv').read_text()
+    fish = (tmp_path / 'fish/vendor_completions.d/gnbv.fish').read_text()
+    zsh = (tmp_path / 'zsh/vendor-completions/_gnbv').read_text()
+    helped = subprocess.run([gnbv.path, '--help'], capture_output=True, text=True).stdout
+    commands = re.findall(r'^  (\w+) ', helped.split('Subcommands:')[1].split('\n\n')[0], re.M)
+    assert len(commands) > 15
+    for command in commands:
+        text = subprocess.run([gnbv.path, command, '--help'], capture_output=True, text=True).stdout
+        page = (tmp_path / f'man/man1/gnbv-{command}.1').read_text().replace('\\-', '-')
+        for option in set(re.findall(r'^  (?:-\w,)?(--[\w-]+)', text, re.M)):
+            assert re.search(rf'(\\fB|,){option}[,\\]', page), (command, option)
+            assert re.search(rf'(?<![\w-]){option}(?![\w-])', bash) and f"'{option}[" in zsh.replace(
+                "'*", "'"), (command, option)
+            assert re.search(rf"_from {command}' .*-l {option[2:]} ", fish), (command, option)
+    ask = f'''source {tmp_path}/bash-completion/completions/gnbv
+        ask() {{ COMP_WORDS=("$@") COMP_CWORD=$(($#-1)) COMPREPLY=(); _gnbv
+                 echo "${{COMPREPLY[*]}}"; }}
+        ask gnbv comp; ask gnbv run --cand; ask gnbv export --format col'''
+    said = subprocess.run(['bash', '-c', ask], capture_output=True, text=True).stdout
+    assert said.splitlines() == ['compare', '--candidates', 'colmap']
+    if shutil.which('man'):
+        shown = subprocess.run(['man', '--warnings', '-l', tmp_path / 'man/man1/gnbv-run.1'],
+                               capture_output=True, text=True, env=os.environ | {'LC_ALL': 'C'})
+        assert 'fly one mission' in shown.stdout and not shown.stderr
+
+
+def test_mkdocs_builds_the_site(tmp_path):
+    extras = os.environ.get('GNBV_EXTRAS_PYTHON', REPOSITORY / 'build/extras/bin/python')
+    python = extras if os.path.exists(extras) else sys.executable
+    if subprocess.run([python, '-c', 'import mkdocs, material, mkdocstrings']).returncode != 0:
+        pytest.skip('no mkdocs-material and mkdocstrings: tools/setup --all')
+    end = subprocess.run([python, '-m', 'mkdocs', 'build', '--strict', '-d', tmp_path / 'site'],
+                         cwd=REPOSITORY, capture_output=True, text=True)
+    assert end.returncode == 0, end.stdout + end.stderr
+    page = (tmp_path / 'site/reference/python/index.html').read_text()
+    assert 'id="gnbv.Belief.evaluate"' in page, 'the package is not documented'
