@@ -5,13 +5,25 @@
 install(TARGETS gnbv RUNTIME COMPONENT program)
 # loaded when first needed: sim/core/module.cpp looks for them from where the program is
 install(TARGETS gnbv_symmetry gnbv_poisson LIBRARY DESTINATION lib/gnbv COMPONENT program)
-install(FILES README.md CHANGELOG.md FIDELITY.md DESTINATION share/doc/gnbv
-  COMPONENT program)
+install(FILES README.md CHANGELOG.md FIDELITY.md CONTRIBUTING.md SECURITY.md CITATION.cff
+  DESTINATION share/doc/gnbv COMPONENT program)
 install(DIRECTORY docs DESTINATION share/doc/gnbv COMPONENT program
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(DIRECTORY bench/results DESTINATION share/doc/gnbv/bench COMPONENT program
   FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES LICENSE DESTINATION share/doc/gnbv RENAME copyright COMPONENT program)
+
+# man pages and completions, of docs/reference/commands.md; what others wrote of the program, where
+# Debian's packages can say so
+find_program(GNBV_PYTHON3 python3)
+install(CODE "
+  set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
+  execute_process(COMMAND ${GNBV_PYTHON3} ${PROJECT_SOURCE_DIR}/tools/docs --install \${prefix}/share
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${GNBV_PYTHON3} ${PROJECT_SOURCE_DIR}/tools/licences
+    -o \${prefix}/share/doc/gnbv/third-party.txt.gz --build ${PROJECT_BINARY_DIR}
+    \"$<TARGET_FILE:gnbv>\" \"$<TARGET_FILE:gnbv_symmetry>\" \"$<TARGET_FILE:gnbv_poisson>\")
+" COMPONENT program)
 
 # ---- the planner's library ------------------------------------------------------------------------
 get_property(libraries GLOBAL PROPERTY gnbv_installed_libraries)

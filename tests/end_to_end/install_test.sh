@@ -12,6 +12,18 @@ fail() { echo "install_test: $*" >&2; exit 1; }
 mv "$work/first" "$work/moved here"
 gnbv="$work/moved here/bin/gnbv"
 cd "$work"
+for file in man/man1/gnbv-run.1 bash-completion/completions/gnbv zsh/vendor-completions/_gnbv \
+  fish/vendor_completions.d/gnbv.fish doc/gnbv/docs/start.md; do
+  [[ -s "moved here/share/$file" ]] || fail "no share/$file"
+done
+if command -v dpkg-query >/dev/null; then
+  zcat "moved here/share/doc/gnbv/third-party.txt.gz" >third-party.txt
+  others=$(sed '/^====/Q' third-party.txt)
+  for name in embree bullet eigen3 nlohmann-json3 pcl; do  # linked, compiled in, loaded
+    grep -q "^  $name " <<<"$others" || fail "third-party.txt does not list $name"
+  done
+  ! grep -q '^  googletest ' <<<"$others" || fail "third-party.txt lists what only tests use"
+fi
 [[ $("$gnbv" --version) == "$version" ]] || fail "gnbv --version is not $version"
 
 LD_DEBUG=files LD_DEBUG_OUTPUT=$work/loaded "$gnbv" run smoke --quiet --frames --out run >/dev/null
