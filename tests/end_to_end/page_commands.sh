@@ -54,4 +54,4 @@ awk -v end="END_OF_FILE_OF_THE_PAGE" '
   }
   file || shell { print }' "$page" >"$folder/commands.sh"
 grep -q . "$folder/commands.sh" || { echo "$page shows no command" >&2; exit 1; }
-bash -euxo pipefail "$folder/commands.sh"
+bash -euxo pipefail "$folder/commands.sh" || exit 1

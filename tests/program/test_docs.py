@@ -56,6 +56,20 @@ def test_every_decision_is_in_the_index_with_its_title_and_status():
     assert len(re.findall(r'^\| \d+ \|', index, re.M)) == len(files)
 
 
+def test_every_field_that_a_planner_sees_is_documented():
+    header = (REPOSITORY / 'planner/view/view_stats.hpp').read_text()
+    source = (REPOSITORY / 'tools/python/gnbv/_planner.py').read_text()
+    page = (REPOSITORY / 'docs/reference/python.md').read_text()
+    views = re.findall(r'GNBV_VIEW_FIELD\((\w+), "', header)
+    history = re.findall(r'\("(\w+)", "[fi]8"\)', source)
+    assert len(views) == 23 and len(history) == 10
+    for field in views + history:
+        assert f'`{field}`' in page, field
+    words = ' '.join(re.findall(r'"""(.*?)"""', source, re.S))
+    for field in views:
+        assert re.search(rf'\b{field}\b', words), f'help(gnbv) does not tell of {field}'
+
+
 def docs(gnbv, *words):
     return subprocess.run([sys.executable, REPOSITORY / 'tools/docs', *words], capture_output=True,
                           text=True, env=os.environ | {'GNBV': str(gnbv.path)})

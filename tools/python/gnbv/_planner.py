@@ -133,7 +133,17 @@ class Belief:
         return kept
 
     def evaluate(self, views: Views) -> npt.NDArray[Any]:
-        """What each view would see: ViewStats as a structured array, path_m the straight way."""
+        """What each view would see: a structured array, a row a view.
+
+        Voxels that the rays of all cameras cross, up to and with the first occupied one of each
+        ray. Each voxel once: free_voxels, unknown_voxels, occupied_voxels, predicted_voxels (the
+        first of each ray), sparse_voxels, entropy_nat (nat), density_sum and density_max (points
+        a voxel), voxel_m3 (m3 of one). Once a ray: entropy_per_ray_nat (nat). Of the rays (counts
+        but where a unit says else): rays, rays_occupied, occlusion_aware_nat, unobserved_nat,
+        rear_side_rays, rear_side_nat, crossed_by_occupied (voxels), entropy_of_occupied_nat,
+        unknown_volume_m3, proximity_sum (voxels), shadow_rays, front_rays. path_m: the straight
+        way (m).
+        """
         rows = view_rows(views)
         return np.frombuffer(self._view.evaluate(rows), np.dtype(self._view.stats_dtype))
 
@@ -149,7 +159,6 @@ class History:
     """What was done so far.
 
     Attributes:
-        views: structured array, a row a view that was taken, the latest last.
         refused: (View, reason) of those that could not be flown since the latest view.
     """
 
@@ -159,6 +168,12 @@ class History:
 
     @property
     def views(self) -> npt.NDArray[Any]:
+        """A row a view that was taken, the latest last.
+
+        iteration (from 0); x, y, z of the body (m, world ENU); yaw and gimbal_pitch (rad);
+        entropy_nat of the map and cloud_points after the view; flown_m and time_s (simulated)
+        since the start.
+        """
         return np.array(self._rows, dtype=HISTORY_DTYPE)
 
     def __len__(self) -> int:
