@@ -78,6 +78,7 @@ void fields(const Keys& key, StartConfig& c) {
   key.angle("yaw_deg", c.pose.yaw_rad, {-360, 360}, "Heading there, 0 = east, 90 = north.");
   key("jitter_m", c.jitter_m, {0, 1e4}, "The seed moves it by up to this, in the navigation box.");
   key.angle("jitter_yaw_deg", c.jitter_yaw_rad, {0, 180}, "The seed turns it by up to this.");
+  key("on_ground", c.on_ground, "Takes off from the ground below it; else begins there, hovering.");
 }
 
 void fields(const Keys& key, BenchmarkConfig& c) {

@@ -178,6 +178,9 @@ void fields(const Keys& key, GuidanceConfig& c) {
   const Keys passing = key.only_if(c.trajectory == smooth, ".trajectory");
   passing("pass_distance_m", c.pass_distance_m, positive(10), "smooth: a view passed this near.");
   passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180), "smooth: turned up to this there.");
+  key.angle("image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
+            "Turns, and speed over the distance of the nearest known surface, keep below this: blur "
+            "allowed in pixels / (focal length in pixels * exposure time). 0: any.");
   key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
 }
 
@@ -201,6 +204,9 @@ void fields(const Keys& key, DepthNoiseConfig& c) {
   const Keys of_stereo = key.only_if(c.model == stereo, ".model");
   of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: between the two lenses.");
   of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: standard deviation.");
+  key.only_if(c.model != none, ".model")(
+      "sigma_max_m", c.sigma_max_m, {0, 10},
+      "Depths of a larger standard deviation enter the map, but not the cloud; 0: all enter both.");
 }
 
 void fields(const Keys& key, GimbalConfig& c) {

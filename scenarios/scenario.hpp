@@ -90,6 +90,7 @@ struct StartConfig {
   ViewPose pose = {Vec3(0.0, -20.0, 5.0), deg_to_rad(90.0)};
   Vec3 jitter_m = Vec3(5.0, 1.0, 2.0);
   double jitter_yaw_rad = 0.0;
+  bool on_ground = false;  // begins at rest below, and climbs there first
 };
 
 /// What only a benchmark may know: it asks the truth, never the belief.

@@ -11,9 +11,7 @@
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
-namespace {
 
-/// Of the highest terrain at (x, y), else of the plane ground; -infinity where there is neither.
 double ground_height_m(const World& world, const Vec3& at_m) {
   double highest_m = -std::numeric_limits<double>::infinity();
   for (const auto& face : world.terrain.faces) {
@@ -34,6 +32,8 @@ double ground_height_m(const World& world, const Vec3& at_m) {
   return std::isinf(highest_m) && world.has_ground ? 0.0 : highest_m;
 }
 
+namespace {
+
 class IdealFlight final : public Flight {
  public:
   IdealFlight(const VehicleConfig& config, const World& world, const ViewPose& start)
@@ -49,6 +49,8 @@ class IdealFlight final : public Flight {
   void command(const Setpoint& setpoint) override {
     if (!landing_z_m_) setpoint_ = setpoint;
   }
+
+  void leave_ground() override {}
 
   void land() override {
     landing_z_m_ = ground_height_m(ground_, pose_.p_world_m);
@@ -105,15 +107,25 @@ class IdealFlight final : public Flight {
 
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
                                     const ViewPose& start, std::uint64_t seed,
-                                    const WindConfig& wind) {
-  switch (config.kind) {
-    case VehicleKind::quadrotor:
-      return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard,
-                                         wind);
-    case VehicleKind::ideal:
-      return std::make_unique<IdealFlight>(config, world, start);
+                                    const WindConfig& wind, FlightStart from) {
+  const bool is_ideal = config.kind == VehicleKind::ideal;
+  if (from == FlightStart::air) {
+    if (is_ideal) return std::make_unique<IdealFlight>(config, world, start);
+    return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard,
+                                       wind);
   }
-  throw BrokenInvariant("vehicle kind outside its enumeration");
+  ViewPose below = start;
+  below.p_world_m.z() = ground_height_m(world, start.p_world_m);
+  if (std::isinf(below.p_world_m.z())) throw BadInput("start.on_ground: there is no ground below");
+  if (is_ideal) return std::make_unique<IdealFlight>(config, world, below);
+  auto flight =
+      std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::on_ground, wind);
+  flight->command({.p_world_m = flight->estimate().T_world_body.translation(),
+                   .yaw_rad = start.yaw_rad});
+  const bool is_ready = flight->px4().set_mode(NavState::offboard) == Ack::accepted &&
+                        flight->px4().arm(true) == Ack::accepted;
+  GNBV_CHECK(is_ready, "a vehicle at rest could not be armed");
+  return flight;
 }
 
 }  // namespace gnbv

@@ -51,6 +51,8 @@ class Flight {
   /// Holds until the next call. A quadrotor gives it up after CommanderParameters::offboard_loss_s
   /// without another, and stays where it is.
   virtual void command(const Setpoint& setpoint) = 0;
+  /// From now on touching the ground counts, as it always does for one that began in the air.
+  virtual void leave_ground() = 0;
   /// From now on the vehicle lands where it is, whatever is commanded, and may touch the ground.
   virtual void land() = 0;
   /// Landed, with its rotors off. Never in a world without ground.
@@ -70,8 +72,16 @@ class Flight {
 /// and yaw rate where these are not given, keeps what is not commanded. It knows where it is, feels
 /// no wind, draws hover power and has no body to collide with. It lands on the highest terrain at
 /// its x and y, else on the plane ground, whatever else is in between.
+/// FlightStart::ground: at rest on the ground below `start`, armed and in OFFBOARD, its rotors off;
+/// throws BadInput naming start.on_ground where there is none.
+enum class FlightStart { air, ground };
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
                                     const ViewPose& start, std::uint64_t seed,
-                                    const WindConfig& wind = {});
+                                    const WindConfig& wind = {},
+                                    FlightStart from = FlightStart::air);
+
+/// World z of the highest terrain at (x, y), else of the plane ground; -infinity where there is
+/// neither.
+double ground_height_m(const World& world, const Vec3& at_m);
 
 }  // namespace gnbv

@@ -148,12 +148,15 @@ double speed_along(const Vec3& direction, double speed_m_s, const VehicleConfig&
 }
 
 RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  const double sharp_rad_s = config.image_motion_max_rad_s;
+  const double rate_rad_s =
+      sharp_rad_s > 0.0 ? std::min(config.yaw_rate_rad_s, sharp_rad_s) : config.yaw_rate_rad_s;
   if (vehicle.kind == VehicleKind::ideal) {
-    return {config.yaw_rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
+    return {rate_rad_s, config.yaw_acceleration_rad_s2, config.yaw_jerk_rad_s3};
   }
   const double authority_rad_s2 = 0.1 * yaw_authority_rad_s2(vehicle.airframe);
   const double share = std::min(1.0, authority_rad_s2 / config.yaw_acceleration_rad_s2);
-  return {std::min(config.yaw_rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
+  return {std::min(rate_rad_s, kShareOfLimit * vehicle.autopilot.rate_max_rad_s.z()),
           share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
 }
 

@@ -34,6 +34,8 @@ struct GuidanceConfig {
   double arrival_speed_m_s = 0.05;
   double pass_distance_m = 0.6;  // smooth: a view is taken as near to it as this
   double pass_yaw_rad = deg_to_rad(15.0);
+  // how fast surface may cross the image: of turns, and of speed over distance; 0: any
+  double image_motion_max_rad_s = 0.0;
   double timeout_s = 60.0;  // beyond the time the reference itself needs
 };
 

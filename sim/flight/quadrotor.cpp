@@ -22,10 +22,11 @@ Quadrotor::Beginning Quadrotor::begin(const VehicleConfig& config, const World& 
   Beginning beginning{.state = {T_world_body(start)}, .trim = {}};
   Isometry& T = beginning.state.T_world_body;
   if (how == Px4::Start::on_ground) {
-    if (!world.has_ground) {
+    const double ground_m = ground_height_m(world, start.p_world_m);
+    if (std::isinf(ground_m)) {
       throw BadInput("a vehicle cannot start on the ground of a world that has no ground");
     }
-    T.translation().z() = 0.5 * airframe.hull_height_m;
+    T.translation().z() = ground_m + 0.5 * airframe.hull_height_m;
     return beginning;
   }
   HoverTrim& trim = beginning.trim;

@@ -60,6 +60,53 @@ TEST(Takeoff, SweepsBetweenViewsAreSurfaceToLookAtAndCoverNothing) {
   EXPECT_EQ(ranged, 0U);
 }
 
+TEST(Takeoff, FromTheGroundItClimbsToWhereTheOthersBegin) {
+  for (const std::string kind : {"quadrotor", "ideal"}) {
+    std::vector<std::string> keys = {"planner.termination.max_iterations=3",
+                                     "vehicle.kind=" + kind};
+    const MissionResult air = Flown(takeoff(keys)).result;
+    keys.emplace_back("start.on_ground=true");
+    const MissionResult ground = Flown(takeoff(keys), {}, 1).result;
+    const double up_m = air.start.p_world_m.z();
+    EXPECT_EQ(ground.start.p_world_m, air.start.p_world_m);
+    EXPECT_LT(ground.trajectory.front().T_world_body.translation().z(), 0.3) << kind;
+    EXPECT_NEAR(ground.distance.profile_flown_m, up_m, 0.4) << kind;
+    // 2 m/s at most, and what the rotors take to spool up
+    EXPECT_GT(ground.profile_end_s - air.profile_end_s, up_m / 2.0) << kind;
+    EXPECT_LT(ground.profile_end_s - air.profile_end_s, up_m / 2.0 + 10.0) << kind;
+    EXPECT_GT(ground.energy_wh, air.energy_wh) << kind;
+    EXPECT_EQ(ground.termination, air.termination) << kind;
+    EXPECT_EQ(result_sha256(Flown(takeoff(keys), {}, 2).result), result_sha256(ground)) << kind;
+  }
+}
+
+TEST(Takeoff, SharpFramesAreTakenSlowly) {
+  // 2 m/s are flown where nothing is nearer than 4 m
+  const std::vector<std::string> few = {"planner.termination.max_iterations=12"};
+  std::vector<std::string> keys = few;
+  const MissionResult fast = Flown(takeoff(keys)).result;
+  keys.emplace_back("guidance.image_motion_max_deg_s=20");
+  const Flown slow(takeoff(keys));
+  const double most_rad_s = deg_to_rad(20.0);
+  const auto worst = [&](const MissionResult& result) {
+    double most = 0.0;
+    for (std::size_t i = 1; i < result.trajectory.size(); ++i) {
+      const auto& [before_s, before] = result.trajectory[i - 1];
+      const auto& [now_s, now] = result.trajectory[i];
+      const double speed_m_s =
+          (now.translation() - before.translation()).norm() / (now_s - before_s);
+      const double away_m = slow.scene.clearance_m(now.translation(), 10.0);
+      most = std::max(most, speed_m_s / away_m);
+      most = std::max(most, std::abs(wrap_angle_rad(yaw_of(now) - yaw_of(before))) /
+                                (now_s - before_s));
+    }
+    return most;
+  };
+  // what nobody has seen yet may be nearer than what is known
+  EXPECT_LT(worst(slow.result), 1.5 * most_rad_s);
+  EXPECT_GT(worst(fast), 2.0 * most_rad_s);
+}
+
 TEST(Takeoff, ThePresetSetsWhatNobodyGaveAndLeavesNothingBehind) {
   const Scenario preset = smoke({"planner.preset=takeoff"});
   EXPECT_EQ(preset.guidance.trajectory, Trajectory::smooth);
@@ -72,6 +119,9 @@ TEST(Takeoff, ThePresetSetsWhatNobodyGaveAndLeavesNothingBehind) {
   EXPECT_EQ(given.cameras[0].rate_hz, 2.0);
   EXPECT_EQ(given.planner.profiling.method, ProfilingMethod::circular);
   EXPECT_EQ(to_yaml(smoke({"planner.preset=takeoff", "planner.preset=paper"})), to_yaml(smoke()));
+  const std::string noisy = "cameras.0.noise.model=stereo";
+  EXPECT_EQ(smoke({noisy, "planner.preset=takeoff"}).cameras[0].noise.sigma_max_m, 0.03);
+  EXPECT_EQ(smoke({noisy}).cameras[0].noise.sigma_max_m, 0.0);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ class StreamingFlight : public Flight {
   void command(const Setpoint& setpoint) override { setpoint_ = setpoint; }
   bool has_collided() const override { return flight_->has_collided(); }
   double energy_wh() const override { return flight_->energy_wh(); }
+  void leave_ground() override { flight_->leave_ground(); }
   void land() override { flight_->land(); }
   bool has_landed() const override { return flight_->has_landed(); }
   void step() override {

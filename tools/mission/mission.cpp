@@ -39,24 +39,38 @@ void turn_gimbal(Mission& m, const ViewPose& view) {
                            : m.gimbal_pitch_rad + std::copysign(kStep_rad, to_go_rad);
 }
 
-/// Flies to the view, the gimbal turning from the first tick on, and waits there until it has;
-/// cameras that run in flight are believed on the way. A frame is believed one tick late, so that
-/// one due on arrival is left to the view itself.
-std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
-  const ScopeTimer timer(m.view_wall.fly_s);
-  m.out.distance.straight_m = planned_m(m.history, m.current.p_world_m, next);
-  std::vector<DepthFrame> pending;
-  const auto look = [&](const Flight& flight) {
+/// After each tick on the way to a view: the gimbal turns, and what runs in flight is believed. A
+/// frame is believed one tick late, so that one due on arrival is left to the view itself.
+std::function<void(const Flight&)> looks_on_the_way(Mission& m, const ViewPose& view) {
+  return [&m, &view, pending = std::vector<DepthFrame>()](const Flight& flight) mutable {
     m.scanner.tick(flight, m.scenario.planner.profiling.flight_rate_hz > 0.0);
     integrate_sweeps(m.model, m.scanner.take_scans(), m.scratch, m.out.belief);
     integrate_view(m.model, pending, m.scratch, m.out.belief);
     pending.clear();
-    turn_gimbal(m, next.view);
+    turn_gimbal(m, view);
     for (std::size_t i = 0; i < m.model.cameras.size(); ++i) {
       if (!is_due(m.model.cameras[i].config.rate_hz, flight.tick())) continue;
       if (auto frame = take_frame(m, i)) pending.push_back(std::move(*frame));
     }
   };
+}
+
+/// From the ground to where the mission begins, straight up.
+std::optional<Termination> take_off(Mission& m) {
+  if (!m.scenario.start.on_ground) return std::nullopt;
+  const ScopeTimer timer(m.out.wall.fly_s);
+  m.out.distance.transfer_m += (m.out.start.p_world_m - m.last_p_world_m).norm();
+  const auto over = fly_leg(m, m.out.start, m.scenario.guidance.path_speed_m_s,
+                            looks_on_the_way(m, m.out.start));
+  m.flight->leave_ground();
+  return over;
+}
+
+/// Flies to the view, the gimbal turning from the first tick on, and waits there until it has.
+std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
+  const ScopeTimer timer(m.view_wall.fly_s);
+  m.out.distance.straight_m = planned_m(m.history, m.current.p_world_m, next);
+  const auto look = looks_on_the_way(m, next.view);
   const bool is_smooth = m.scenario.guidance.trajectory == Trajectory::smooth;
   std::optional<Termination> over = is_smooth ? fly_past(m, next, look) : fly_legs(m, next, look);
   const auto is_gimbal_late = [&] { return m.gimbal_pitch_rad != next.view.gimbal_pitch_rad; };
@@ -189,6 +203,7 @@ MissionResult finish(Mission& m, Termination reason) {
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionInputs& inputs, int threads) {
   Mission m(scenario, world, scene, inputs, threads);
+  if (const auto over = take_off(m)) return finish(m, *over);
   if (const auto over = fly_profile(m)) return finish(m, *over);
   Decision view = {.view = m.out.start};
   while (true) {

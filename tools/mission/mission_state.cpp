@@ -54,10 +54,11 @@ Mission::Mission(const Scenario& mission_scenario, const World& world, const Ray
       model(planner_model(scenario)),
       scratch(model, threads),
       out(start_pose(scenario, scene), model),
-      flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind)),
+      flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind,
+                         scenario.start.on_ground ? FlightStart::ground : FlightStart::air)),
       scanner(scene, model.lidars, scenario.seed, scenario.planner.profiling.flight_rate_hz),
       current(out.start),
-      last_p_world_m(out.start.p_world_m),
+      last_p_world_m(flight->state().T_world_body.translation()),
       gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
   PlannerSources sources = inputs.sources;
   if (!sources.user_scores) sources.user_scores = lazy_user_utility(scenario.planner.utility);

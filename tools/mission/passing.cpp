@@ -64,6 +64,28 @@ std::variant<WayEnd, Termination> fly_on(Mission& m, std::size_t poses,
   return WayEnd::passed;
 }
 
+/// The speed up to which surface crosses the image no faster than guidance.image_motion_max_rad_s
+/// on the way from there, straight from pose to pose or as far from that as a way passes them:
+/// that times the distance of the nearest voxel that is known to hold surface.
+double sharp_speed_m_s(const Mission& m, const Vec3& from_m, std::span<const PassedPose> poses) {
+  const GuidanceConfig& guidance = m.scenario.guidance;
+  if (guidance.image_motion_max_rad_s <= 0.0) return guidance.path_speed_m_s;
+  const GridGeometry& voxels = m.out.belief.grid.geometry();
+  double nearest_m = guidance.path_speed_m_s / guidance.image_motion_max_rad_s;
+  if (guidance.trajectory == Trajectory::smooth) nearest_m += guidance.pass_distance_m;
+  for (const VoxelIndex voxel : m.out.belief.cloud.voxels()) {
+    const Vec3 p_m = voxels.center_m(voxels.key_at(voxel));
+    Vec3 at_m = from_m;
+    for (const PassedPose& pose : poses) {
+      nearest_m = std::min(nearest_m, distance_to_segment_m(p_m, at_m, pose.pose.p_world_m));
+      at_m = pose.pose.p_world_m;
+    }
+  }
+  if (guidance.trajectory == Trajectory::smooth) nearest_m -= guidance.pass_distance_m;
+  const double least_m = m.model.validity.collision_radius_m;
+  return guidance.image_motion_max_rad_s * std::max(nearest_m, least_m);
+}
+
 /// Takes up the smooth way from here past the poses, if it may be flown; `nearness`: how near to
 /// them, as a share of the distance allowed.
 bool take_way(Mission& m, std::span<const PassedPose> poses, double nearness, double speed_m_s) {
@@ -85,7 +107,7 @@ bool find_way(Mission& m, const Decision& next) {
   poses.push_back({next.view});
   const std::size_t to_view = poses.size();
   for (const Onward& onward : next.then) poses.push_back({onward.pose, onward.is_view});
-  const double speed_m_s = m.scenario.guidance.path_speed_m_s;
+  const double speed_m_s = sharp_speed_m_s(m, reference_now(m).p_world_m, poses);
   for (const double nearness : {1.0, 0.4, 0.15}) {
     for (std::size_t count = poses.size(); count >= to_view; --count) {
       if (take_way(m, std::span(poses).first(count), nearness, speed_m_s)) return true;
@@ -143,7 +165,8 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
     }
     // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
     if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
-    const auto over = fly_leg(m, legs[i], m.scenario.guidance.path_speed_m_s, on_tick);
+    const PassedPose end = {legs[i]};
+    const auto over = fly_leg(m, legs[i], sharp_speed_m_s(m, here_m, {&end, 1}), on_tick);
     if (over) return over;
   }
   return std::nullopt;

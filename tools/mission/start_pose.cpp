@@ -1,6 +1,7 @@
 #include "tools/mission/start_pose.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/limits/legal_viewpoints.hpp"
 #include "bench/score/escape_search.hpp"
@@ -8,6 +9,7 @@
 #include "planner/profiling.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
+#include "sim/flight/flight.hpp"
 
 namespace gnbv {
 namespace {
@@ -81,6 +83,28 @@ void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& s
       "start.position_m: the start [{:.2f}, {:.2f}, {:.2f}] is enclosed by the structure: no way "
       "out was found for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
       "flown outside; move the start, try `--bounds auto`, or set planner.profiling.method: none",
+      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
+}
+
+void need_way_up(const Scenario& scenario, const World& world, const RayScene& scene,
+                 const ViewPose& start) {
+  if (!scenario.start.on_ground) return;
+  const double radius_m = scenario.planner.validity.collision_radius_m;
+  Vec3 low_m = start.p_world_m;
+  low_m.z() = ground_height_m(world, start.p_world_m) + 1.5 * radius_m;  // slopes are near, too
+  if (std::isinf(low_m.z())) {
+    throw BadInput(fmt::format(
+        "start.on_ground: there is no ground below [{:.2f}, {:.2f}, {:.2f}], where the mission "
+        "begins; structure.ground: true, or a terrain, gives one",
+        start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z()));
+  }
+  if (low_m.z() >= start.p_world_m.z() ||
+      is_leg_clear(scene, low_m, start.p_world_m, radius_m)) {
+    return;
+  }
+  throw BadInput(fmt::format(
+      "start.on_ground: the way up to [{:.2f}, {:.2f}, {:.2f}] comes nearer than "
+      "planner.validity.collision_radius_m = {} m to something solid: move start.position_m",
       start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
 }
 

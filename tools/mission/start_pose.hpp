@@ -18,6 +18,11 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene);
 void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
                   const ViewPose& start, int threads);
 
+/// With start.on_ground, throws BadInput when there is no ground below the start, or something
+/// solid on the way up.
+void need_way_up(const Scenario& scenario, const World& world, const RayScene& scene,
+                 const ViewPose& start);
+
 /// What to say when the structure or what stands around it is in the way of the profile's legs, of
 /// an adaptive one as far up as it may climb; "" otherwise, and for a vehicle without a body.
 std::string profile_warning(const Scenario& scenario, const RayScene& scene, const ViewPose& start);

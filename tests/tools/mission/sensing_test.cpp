@@ -30,6 +30,7 @@ class Sliding final : public Flight {
   void step() override { ++tick_; }
   bool has_collided() const override { return false; }
   double energy_wh() const override { return 0.0; }
+  void leave_ground() override {}
   void land() override {}
   bool has_landed() const override { return false; }
 
