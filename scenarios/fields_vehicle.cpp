@@ -204,9 +204,6 @@ void fields(const Keys& key, DepthNoiseConfig& c) {
   const Keys of_stereo = key.only_if(c.model == stereo, ".model");
   of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: between the two lenses.");
   of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: standard deviation.");
-  key.only_if(c.model != none, ".model")(
-      "sigma_max_m", c.sigma_max_m, {0, 10},
-      "Depths of a larger standard deviation enter the map, but not the cloud; 0: all enter both.");
 }
 
 void fields(const Keys& key, GimbalConfig& c) {

@@ -194,7 +194,6 @@ Scenario noting_removed(Loaded loaded) {
 void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
   constexpr double kGazebos_m = 5.0;
   constexpr double kFrames_hz = 5.0;
-  constexpr double kCertain_m = 0.03;
   const bool is_takeoff = scenario.planner.preset == kTakeoff;
   if (is_takeoff && !given.contains("guidance.trajectory")) {
     scenario.guidance.trajectory = Trajectory::smooth;
@@ -205,7 +204,6 @@ void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
     };
     CameraConfig& camera = scenario.cameras[i];
     if (is_takeoff && !is_given("rate_hz")) camera.rate_hz = kFrames_hz;
-    if (is_takeoff && !is_given("noise.sigma_max_m")) camera.noise.sigma_max_m = kCertain_m;
     if (scenario.planner.preset == "authors_2018" && !is_given("return_max_m")) {
       camera.return_max_m = kGazebos_m;
     }

@@ -20,7 +20,6 @@ struct DepthNoiseConfig {
   // stereo only: sigma = z^2 * disparity_noise_px / (focal length in pixels * baseline_m)
   double baseline_m = 0.063;
   double disparity_noise_px = 0.1;
-  double sigma_max_m = 0.0;  // depths less certain enter the map, but no cloud; 0: all enter both
 };
 
 /// A gimbal turns its camera about body y, positive looks down. A view may choose min_rad,

@@ -45,21 +45,6 @@ inline double depth_sigma_m(const CameraModel& camera, double depth_m, double in
   throw BrokenInvariant("depth noise outside its enumeration");
 }
 
-/// The depth up to which surface that faces the camera enters clouds: where its returns end, or
-/// where their standard deviation reaches noise.sigma_max_m.
-inline double cloud_end_m(const CameraModel& camera) {
-  const CameraConfig& c = camera.config;
-  double end_m = return_end_m(c);
-  const double most_m = c.noise.sigma_max_m;
-  if (most_m <= 0.0 || depth_sigma_m(camera, end_m, 0.0) <= most_m) return end_m;
-  double certain_m = c.range_min_m;
-  for (int i = 0; i < 40; ++i) {  // halved to below a nanometre
-    const double middle_m = 0.5 * (certain_m + end_m);
-    (depth_sigma_m(camera, middle_m, 0.0) <= most_m ? certain_m : end_m) = middle_m;
-  }
-  return certain_m;
-}
-
 /// Nguyen et al. measured no surface beyond about this incidence.
 constexpr double kGrazing_rad = deg_to_rad(80.0);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "sensors/depth_noise.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -48,10 +47,6 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   rays.origin_world_m = origin_m.cast<float>();
   rays.kind.resize(pixels);
   rays.row_stride = (width + kPadding - 1) / kPadding * kPadding + kPadding;
-  rays.width = width;
-  const double cloud_end = cloud_end_m(camera);
-  rays.cloud_least_inverse_1_m =
-      cloud_end < return_end_m(camera.config) ? static_cast<float>(1.0 / cloud_end) : 0.0F;
   rays.inverse_depth.resize(static_cast<std::size_t>(rays.row_stride) * height);
   PixelRow row{};
   row.width = width;

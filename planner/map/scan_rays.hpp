@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -36,14 +35,8 @@ struct FrameRays {
   std::vector<PixelRay> kind;
   std::vector<float> inverse_depth;  // (height, row_stride), see PixelRow; padded with infinity
   int row_stride = 0;
-  int width = 0;
-  float cloud_least_inverse_1_m = 0.0F;  // deeper than its inverse, a hit enters no cloud
 
   Vec3f end_world_m(std::size_t i) const { return {end_m[0][i], end_m[1][i], end_m[2][i]}; }
-  bool enters_cloud(std::size_t i) const {
-    const auto [row, column] = std::div(static_cast<std::ptrdiff_t>(i), std::ptrdiff_t{width});
-    return inverse_depth[row * row_stride + column] >= cloud_least_inverse_1_m;
-  }
   /// Those from pixel `first` on.
   EndRow row(std::size_t first) const {
     return {{end_m[0].data() + first, end_m[1].data() + first, end_m[2].data() + first},

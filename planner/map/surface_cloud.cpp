@@ -178,7 +178,6 @@ std::size_t SurfaceCloud::add(std::span<const FrameRays> frames) {
       const std::size_t found =
           cloud_kernels().find_untaken(table_, frame.row(begin), count, untaken.data());
       for (const std::int32_t pixel : std::span(untaken).first(found)) {
-        if (frame.cloud_least_inverse_1_m > 0.0F && !frame.enters_cloud(begin + pixel)) continue;
         const Vec3f p_m = frame.end_world_m(begin + pixel);
         batch_.add(lattice_.key_of(p_m), p_m);
       }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sensors/depth_noise.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -102,7 +101,7 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   fy_ = cy_ / static_cast<float>(half_y);
   R_camera_world_ = T_world_camera.linear().transpose().cast<float>();
   origin_world_m_ = T_world_camera.translation().cast<float>();
-  range_max_m_ = static_cast<float>(cloud_end_m(camera));
+  range_max_m_ = static_cast<float>(return_end_m(c));
   depth_m_.assign(static_cast<std::size_t>(width_ * height_), kNoDepth);
   const auto set_rays = [](int pixels, float center, float focal, std::vector<float>& rays) {
     rays.clear();
