@@ -119,9 +119,6 @@ TEST(Takeoff, ThePresetSetsWhatNobodyGaveAndLeavesNothingBehind) {
   EXPECT_EQ(given.cameras[0].rate_hz, 2.0);
   EXPECT_EQ(given.planner.profiling.method, ProfilingMethod::circular);
   EXPECT_EQ(to_yaml(smoke({"planner.preset=takeoff", "planner.preset=paper"})), to_yaml(smoke()));
-  const std::string noisy = "cameras.0.noise.model=stereo";
-  EXPECT_EQ(smoke({noisy, "planner.preset=takeoff"}).cameras[0].noise.sigma_max_m, 0.03);
-  EXPECT_EQ(smoke({noisy}).cameras[0].noise.sigma_max_m, 0.0);
 }
 
 }  // namespace

@@ -262,21 +262,5 @@ TEST(DepthNoise, NearTheMinimumReadingsAreInvalidNeverFreeAndAtTheMaximumTheRead
   }
 }
 
-TEST(DepthNoise, CloudsEndWhereDepthsGetUncertain) {
-  for (const DepthNoise model : kModels) {
-    CameraConfig config = narrow_camera(model);
-    EXPECT_EQ(cloud_end_m(make_camera_model(config)), config.range_max_m);
-    config.noise.sigma_max_m = 0.03;
-    const CameraModel camera = make_camera_model(config);
-    EXPECT_NEAR(depth_sigma_m(camera, cloud_end_m(camera), 0.0), 0.03, 1e-9);
-    config.noise.sigma_max_m = 100.0;
-    EXPECT_EQ(cloud_end_m(make_camera_model(config)), config.range_max_m);
-  }
-  // sigma = 0.0025 z^2
-  CameraConfig released = narrow_camera(DepthNoise::released);
-  released.noise.sigma_max_m = 0.04;
-  EXPECT_NEAR(cloud_end_m(make_camera_model(released)), 4.0, 1e-9);
-}
-
 }  // namespace
 }  // namespace gnbv

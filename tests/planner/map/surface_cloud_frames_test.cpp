@@ -99,30 +99,6 @@ TEST_P(SurfaceCloudAt, FramesGiveWhatTheirPointsGive) {
   }
 }
 
-TEST_P(SurfaceCloudAt, DepthsBeyondTheCloudsEndDoNotEnterIt) {
-  const GridGeometry grid(kBox_m, 0.2);
-  SurfaceCloud near_points({.leaf_m = 0.02, .profile_leaf_m = 0.1}, grid);
-  SurfaceCloud by_frames = near_points;
-  Random random(48);
-  std::vector<FrameRays> frames = {random_frame(random, kBox_m, 0.02, 9005)};
-  FrameRays& frame = frames.front();
-  frame.width = 1801;
-  frame.row_stride = 1824;
-  frame.inverse_depth.assign(5 * 1824, 0.0F);
-  frame.cloud_least_inverse_1_m = 0.25F;  // 4 m
-  FrameRays near = frame;
-  for (std::size_t i = 0; i < frame.kind.size(); ++i) {
-    const float depth_m = 1.0F + static_cast<float>(i % 7);
-    frame.inverse_depth[i / 1801 * 1824 + i % 1801] = 1.0F / depth_m;
-    if (depth_m > 4.0F) near.kind[i] = PixelRay::clears;
-  }
-  near_points.add(hits_of({near}), 0.02);
-  set_simd_level(GetParam());
-  by_frames.add(frames);
-  EXPECT_GT(near_points.points_world_m().size(), 1000U);
-  expect_equal(by_frames, near_points, grid);
-}
-
 TEST_P(SurfaceCloudAt, APointAtExactlyTheRadiusCounts) {
   const GridGeometry grid(Box3(Vec3(-8, -8, 0), Vec3(8, 8, 8)), 2.0);  // radius^2 2
   SurfaceCloud cloud({.leaf_m = 0.25, .profile_leaf_m = 0.25}, grid);
