@@ -104,6 +104,12 @@ void read_links(const MeshFileConfig& config, const std::string& path, MeshReadi
   reading.lost_faces = model.lost_faces;
 }
 
+/// A message without the path that it begins with.
+std::string without_path(const std::string& path, const std::string& message) {
+  const std::string begin = path + ": ";
+  return message.starts_with(begin) ? message.substr(begin.size()) : message;
+}
+
 }  // namespace
 
 MeshReading read_mesh(const MeshFileConfig& config) {
@@ -151,7 +157,8 @@ TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* w
     throw BadInput(fmt::format(
         "{}: {} faces of {} could not be used, more than its key lost_max = {} allows: {}",
         config.path, reading.lost_faces, reading.lost_faces + reading.mesh.faces.size(),
-        config.lost_max, fmt::join(reading.warnings, "; ")));
+        config.lost_max,
+        reading.warnings.empty() ? "?" : without_path(config.path, reading.warnings.front())));
   }
   if (const auto offset_m = offset_to_origin_m(reading.mesh)) {
     const Vec3 whole_m = config.offset_m + *offset_m;
