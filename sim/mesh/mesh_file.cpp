@@ -118,7 +118,7 @@ MeshReading read_mesh(const MeshFileConfig& config) {
   const std::string extension = extension_of(path);
   check_file(path, extension);
   MeshReading reading;
-  if (extension == ".sdf" || extension == ".world" || extension == ".urdf") {
+  if (is_model(path)) {
     read_links(config, path, reading);
   } else if (extension == ".obj" || extension == ".ply") {
     read_polygons(config, extension == ".obj", reading);

@@ -239,6 +239,13 @@ void ModelParts::warn_of_planes(const fs::path& document) {
                   document.string(), planes_));
 }
 
+bool is_model(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  std::error_code ignored;
+  return extension == ".sdf" || extension == ".world" || extension == ".urdf" ||
+         fs::is_directory(path, ignored);
+}
+
 fs::path model_file_of(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return path;

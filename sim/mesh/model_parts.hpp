@@ -19,6 +19,9 @@ namespace gnbv {
 /// Throws BadInput naming file and line of what is not read.
 MeshReading read_model(const std::filesystem::path& path, const Eigen::Matrix4d& T_world_model);
 
+/// Whether read_model() reads it: by what lies beside it, too.
+bool is_model(const std::filesystem::path& path);
+
 /// The model file of a folder: what its model.config names, or model.sdf; the path itself where it
 /// is no folder. Throws BadInput for a folder without one.
 std::filesystem::path model_file_of(const std::filesystem::path& path);
