@@ -62,7 +62,9 @@ void fields(const Keys& key, ProfilingConfig& c) {
       "Sweeps a second of each LIDAR between the views: surface to look at, which covers nothing; "
       "0: none.");
   key.only_if(c.method == saved, ".method")
-      .path("file", c.file, "saved: an earlier run's profile.map.");
+      .path("file", c.file,
+            "saved: an earlier run's profile.map, or an OctoMap (.bt, .ot) in the "
+            "world's frame.");
   const Keys on_circle = key.only_if(c.method == circular, ".method");
   on_circle("circle_stations", c.circle_stations, {1, 1000}, "circular: places where it climbs.");
   on_circle("climb_step_m", c.climb_step_m, {0.01, 1e3}, "circular: climb while surface is seen.");

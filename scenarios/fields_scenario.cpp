@@ -15,7 +15,9 @@ void fields(const Keys& key, Box3& c) {
 
 void fields(const Keys& key, MeshFileConfig& c) {
   constexpr std::array<std::string_view, 4> kUpAxes = {"auto", "x", "y", "z"};
-  key.path("path", c.path, "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB); empty: none.");
+  key.path("path", c.path,
+           "Mesh file (OBJ, STL, PLY, DAE, GLTF, GLB, SDF, URDF) or the folder of a Gazebo model; "
+           "empty: none.");
   const Keys of_mesh = key.only_if(!c.path.empty(), ".path");
   of_mesh("scale", c.scale, positive(1e6), "Factor on the file's coordinates.");
   of_mesh.angle("yaw_deg", c.yaw_rad, {-360, 360},
@@ -26,6 +28,8 @@ void fields(const Keys& key, MeshFileConfig& c) {
           "Axis of the file that points up; auto: as the file says, else z.");
   of_mesh("unit_m", c.unit_m, {0, 1e6},
           "Metres per unit of the file; 0: as the file says, else 1.");
+  of_mesh("lost_max", c.lost_max, {0, 1},
+          "Share of the faces that may be unusable; beyond it the mesh is refused.");
 }
 
 void fields(const Keys& key, StructureConfig& c) {

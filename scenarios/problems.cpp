@@ -36,9 +36,14 @@ void check_mesh_files(const Scenario& s, Problems& out) {
     if (path.empty()) {
       require(!has_to_be_given, out, {mesh.key + ".path"}, "names no mesh file");
     } else {
-      require(std::filesystem::is_regular_file(path, ignored), out, {mesh.key + ".path"}, "{}",
-              std::filesystem::is_directory(path, ignored) ? "is a folder, not a mesh file"
-                                                           : "there is no such file");
+      const bool is_folder = std::filesystem::is_directory(path, ignored);
+      const bool is_model = is_folder && (std::filesystem::exists(path / "model.config", ignored) ||
+                                          std::filesystem::exists(path / "model.sdf", ignored));
+      require(is_model || std::filesystem::is_regular_file(path, ignored), out,
+              {mesh.key + ".path"}, "{}",
+              is_folder
+                  ? "is a folder, neither a mesh file nor a model with model.config or model.sdf"
+                  : "there is no such file");
     }
   }
 }
@@ -133,7 +138,8 @@ void check_sensors(const Scenario& s, Problems& out) {
           "the profile needs a LIDAR to scan it");
   require(profiling.method != ProfilingMethod::saved || !profiling.file.empty(), out,
           {"planner.profiling.file", "planner.profiling.method"},
-          "saved: names no file; an earlier run's profile.map has to be named");
+          "saved: names no file; an earlier run's profile.map, or an OctoMap (.bt, .ot), has to be "
+          "named");
 }
 
 /// Size and place of the map; only for a workspace that is a box.

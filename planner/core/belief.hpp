@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "planner/map/frontiers.hpp"
@@ -122,6 +123,11 @@ void write_belief(const Belief& belief, const std::filesystem::path& path);
 /// The belief of the file, which goes on as the written one would have, bit by bit. Throws BadInput
 /// naming the file when it cannot be read, is no belief, is damaged or cut short, or is that of
 /// another map than the model's.
-Belief read_belief(const std::filesystem::path& path, const PlannerModel& model);
+/// An OctoMap (.bt, .ot; world frame, metres, z up) gives the map alone: no points, no shadow. Each
+/// voxel has the highest log-odds of the leaves that it overlaps, whatever their size, within the
+/// clamping bounds; what is occupied below the floor is left out, as returns there are. `notes`
+/// gets what that changed. Throws BadInput, too, for one that holds nothing within the workspace.
+Belief read_belief(const std::filesystem::path& path, const PlannerModel& model,
+                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace gnbv

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/core/belief.hpp"
+#include "planner/core/octomap_belief.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
@@ -188,7 +189,13 @@ void write_belief(const Belief& belief, const std::filesystem::path& path) {
   write_file_atomically(path, out);
 }
 
-Belief read_belief(const std::filesystem::path& path, const PlannerModel& model) {
+Belief read_belief(const std::filesystem::path& path, const PlannerModel& model,
+                   std::vector<std::string>* notes) {
+  const std::string extension = extension_of(path);
+  if (extension == ".ot" || extension == ".bt") {
+    std::vector<std::string> nobodys;
+    return belief_of_octomap(path, model, notes != nullptr ? *notes : nobodys);
+  }
   const std::string content = read_file(path);
   Reader in(checked_body(content, Reader(content, path)), path);
   Belief belief(model);

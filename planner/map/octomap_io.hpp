@@ -28,8 +28,8 @@ struct OctomapLeaves {
 /// Whether it is occupied by those thresholds.
 bool is_occupied(const OctomapLeaf& leaf, const OccupancyConfig& config);
 
-/// The measured space of a .ot file, anybody's. Throws BadInput naming the file that is none, is
-/// cut short or damaged.
-OctomapLeaves read_octomap(const std::filesystem::path& ot);
+/// The measured space of an OcTree or ColorOcTree, .ot or .bt by content, anybody's. Throws
+/// BadInput naming the file that is none, is of another tree, cut short or damaged.
+OctomapLeaves read_octomap(const std::filesystem::path& path);
 
 }  // namespace gnbv

@@ -19,11 +19,14 @@ std::string trimmed(const std::string& text) {
 }
 
 /// A number as assimp read it: whole part, broken part and power of ten each in single precision.
-/// So the paper's structures stay what they were, bit for bit.
+/// So the paper's structures stay what they were, bit for bit. Where that loses millimetres, as
+/// beside the offset of a map grid, it is read in double.
 std::optional<double> read_single(std::string_view word) {
   const std::size_t e = std::min(word.find_first_of("eE"), word.size());
   const auto value = read_with_comma(word.substr(0, e));
   if (!value) return read_decimal(word);  // inf, for one
+  constexpr double kFine = 16'384.0;
+  if (std::abs(*value) >= kFine) return e == word.size() ? value : read_decimal(word);
   const double whole = std::trunc(*value);
   float out = static_cast<float>(whole) + static_cast<float>(*value - whole);
   if (e == word.size()) return out;

@@ -40,8 +40,8 @@ constexpr std::array kKinds = {
     Kind{"draco", "a Draco file, which is compressed: export it without", ""},
     Kind{"lasf", "a LAS point cloud, not a mesh", ""},
     Kind{"# .pcd", "a PCD point cloud, not a mesh", ""},
-    Kind{"<sdf", "an SDF model, not a mesh: name the mesh files in it", ""},
-    Kind{"<robot", "a URDF model, not a mesh: name the mesh files in it", ""},
+    Kind{"<sdf", "an SDF model by its content: name it .sdf", ".sdf"},
+    Kind{"<robot", "a URDF model by its content: name it .urdf", ".urdf"},
     Kind{"off\n", "an OFF file by its content: convert it to .ply or .obj", ""},
     Kind{"gltf", "a GLB file by its content: name it .glb", ".glb"},
     Kind{"ply\n", "a PLY file by its content: name it .ply", ".ply"},
@@ -64,10 +64,11 @@ std::string_view without_prologue(std::string_view text) {
 }  // namespace
 
 std::string what_it_is_instead(const std::filesystem::path& path, const std::string& extension) {
-  constexpr std::array<std::string_view, 5> kClouds = {".xyz", ".pcd", ".pts", ".las", ".laz"};
+  constexpr std::array<std::string_view, 8> kClouds = {".xyz", ".pcd", ".pts", ".las",
+                                                       ".laz", ".txt", ".asc", ".csv"};
   if (std::find(kClouds.begin(), kClouds.end(), extension) != kClouds.end()) {
-    return "is a point cloud, not a mesh: `gnbv score CLOUD --mesh MESH` reads .ply and .xyz "
-           "clouds";
+    return "is a point cloud, not a mesh: `gnbv score CLOUD --mesh MESH` scores it, and `gnbv "
+           "surface CLOUD` makes a mesh of it";
   }
   std::string head(4096, '\0');
   std::ifstream file = open_file(path);
@@ -78,8 +79,9 @@ std::string what_it_is_instead(const std::filesystem::path& path, const std::str
   std::replace(begin.begin(), begin.end(), '\r', '\n');
   for (const Kind& kind : kKinds) {
     if (!begin.starts_with(kind.begins)) continue;
-    const bool is_right =
-        kind.extension == extension || (kind.extension == ".glb" && extension == ".gltf");
+    const bool is_right = kind.extension == extension ||
+                          (kind.extension == ".glb" && extension == ".gltf") ||
+                          (kind.extension == ".sdf" && extension == ".world");
     return is_right ? "" : fmt::format("is {}", kind.what);
   }
   return "";
@@ -89,7 +91,7 @@ std::string no_faces_text(std::size_t points) {
   if (points == 0) return "holds no faces";
   return fmt::format(
       "holds no faces, only {} points: as a cloud `gnbv score CLOUD --mesh MESH` "
-      "reads it",
+      "scores it, and `gnbv surface CLOUD` makes a mesh of it",
       points);
 }
 

@@ -8,6 +8,7 @@
 #include "sim/core/file.hpp"
 #include "sim/mesh/file_kind.hpp"
 #include "sim/mesh/mesh_scene.hpp"
+#include "sim/mesh/model_parts.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
@@ -15,18 +16,19 @@ namespace {
 
 using Matrix4 = Eigen::Matrix4d;
 
-constexpr std::array<std::string_view, 6> kFormats = {".obj", ".ply",  ".stl",
-                                                      ".dae", ".gltf", ".glb"};
+constexpr std::array<std::string_view, 9> kFormats = {".obj", ".ply", ".stl",   ".dae", ".gltf",
+                                                      ".glb", ".sdf", ".world", ".urdf"};
 
 void check_config(const MeshFileConfig& config) {
   const auto need = [](bool holds, const std::string& fault) {
     if (!holds) throw BadInput("mesh: " + fault);
   };
-  const auto& [path, scale, yaw_rad, offset_m, up, unit_m] = config;
+  const auto& [path, scale, yaw_rad, offset_m, up, unit_m, lost_max] = config;
   need(!path.empty(), "path is empty");
   need(scale > 0.0 && std::isfinite(scale), fmt::format("scale = {} is not positive", scale));
   need(unit_m >= 0.0 && std::isfinite(unit_m),
        fmt::format("unit_m = {} is neither positive nor 0", unit_m));
+  need(lost_max >= 0.0 && lost_max <= 1.0, fmt::format("lost_max = {} is no share", lost_max));
   need(offset_m.allFinite(), "offset_m is not finite");
   need(std::isfinite(yaw_rad), "yaw is not finite");
   need(up == "auto" || up == "x" || up == "y" || up == "z",
@@ -91,14 +93,34 @@ void read_scene(const MeshFileConfig& config, const std::string& extension, Mesh
   }
 }
 
+void read_links(const MeshFileConfig& config, const std::string& path, MeshReading& reading) {
+  MeshReading model = read_model(path, declare(config, {1.0, 'z'}, reading));
+  if (model.mesh.faces.empty()) {
+    throw BadInput(fmt::format("{}: holds no faces: no <visual> of it has any", path));
+  }
+  reading.mesh = std::move(model.mesh);
+  reading.not_finite = std::move(model.not_finite);
+  reading.warnings = std::move(model.warnings);
+  reading.lost_faces = model.lost_faces;
+}
+
+/// A message without the path that it begins with.
+std::string without_path(const std::string& path, const std::string& message) {
+  const std::string begin = path + ": ";
+  return message.starts_with(begin) ? message.substr(begin.size()) : message;
+}
+
 }  // namespace
 
 MeshReading read_mesh(const MeshFileConfig& config) {
   check_config(config);
-  const std::string extension = extension_of(config.path);
-  check_file(config.path, extension);
+  const std::string path = model_file_of(config.path).string();
+  const std::string extension = extension_of(path);
+  check_file(path, extension);
   MeshReading reading;
-  if (extension == ".obj" || extension == ".ply") {
+  if (is_model(path)) {
+    read_links(config, path, reading);
+  } else if (extension == ".obj" || extension == ".ply") {
     read_polygons(config, extension == ".obj", reading);
   } else {
     read_scene(config, extension, reading);
@@ -113,9 +135,38 @@ MeshReading read_mesh(const MeshFileConfig& config) {
   return reading;
 }
 
+bool has_lost_more(const MeshReading& reading, double lost_max) {
+  const std::size_t held = reading.lost_faces + reading.mesh.faces.size();
+  return static_cast<double>(reading.lost_faces) > lost_max * static_cast<double>(held);
+}
+
+std::optional<Vec3> offset_to_origin_m(const TriangleMesh& mesh) {
+  constexpr double kFine_m = 16'384.0;  // half a step of a float is a millimetre there
+  const Box3 box_m = bounds_m(mesh);
+  const Vec3 centre_m = box_m.center();
+  const bool is_far =
+      centre_m.cwiseAbs().maxCoeff() > kFine_m && centre_m.norm() > 4.0 * box_m.diagonal().norm();
+  if (!is_far) return std::nullopt;
+  return Vec3(-std::round(centre_m.x()), -std::round(centre_m.y()), 0.0);
+}
+
 TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* warnings) {
   MeshReading reading = read_mesh(config);
   if (!reading.not_finite.empty()) throw BadInput(reading.not_finite);
+  if (has_lost_more(reading, config.lost_max)) {
+    throw BadInput(fmt::format(
+        "{}: {} faces of {} could not be used, more than its key lost_max = {} allows: {}",
+        config.path, reading.lost_faces, reading.lost_faces + reading.mesh.faces.size(),
+        config.lost_max,
+        reading.warnings.empty() ? "?" : without_path(config.path, reading.warnings.front())));
+  }
+  if (const auto offset_m = offset_to_origin_m(reading.mesh)) {
+    const Vec3 whole_m = config.offset_m + *offset_m;
+    throw BadInput(
+        fmt::format("{}: lies so far from the origin that single precision loses "
+                    "millimetres: set its key offset_m to [{:.0f}, {:.0f}, {:.0f}]",
+                    config.path, whole_m.x(), whole_m.y(), whole_m.z()));
+  }
   TriangleMesh& mesh = reading.mesh;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {

@@ -1,4 +1,4 @@
-// Mesh files: OBJ, PLY, STL, COLLADA and glTF, by our own readers.
+// Mesh files: OBJ, PLY, STL, COLLADA, glTF, SDF and URDF, by our own readers.
 #pragma once
 
 #include <filesystem>
@@ -20,6 +20,7 @@ struct MeshFileConfig {
   Vec3 offset_m = Vec3::Zero();
   std::string up_axis = "auto";  // auto (as the file says, or z), x, y or z
   double unit_m = 0.0;           // metres per file unit; 0: as the file says, or metres
+  double lost_max = 0.01;        // share of the faces that may be lost
 };
 
 /// What a file, or the specification of its format, says about its coordinates; nothing where both
@@ -40,15 +41,24 @@ struct MeshReading {
   std::size_t lost_faces = 0;         // that could not be used; flat ones are in the mesh
 };
 
-/// Reads .obj, .ply, .stl, .dae, .gltf and .glb, places instances and triangulates. The vertices of
+/// Reads .obj, .ply, .stl, .dae, .gltf and .glb, places instances and triangulates; and .sdf,
+/// .world, .urdf and the folder of a Gazebo model (model_parts.hpp). The vertices of
 /// OBJ and PLY files keep their numbers; those of the other formats, which repeat a vertex for each
 /// face, normal or material, are joined where their positions are equal. Materials have the diffuse
 /// colours of the file, in PLY files those of its faces or vertices. Throws BadInput naming the
 /// file and its fault, or what is wrong with the config.
 MeshReading read_mesh(const MeshFileConfig& config);
 
+/// Whether more of its faces than that share could not be used.
+bool has_lost_more(const MeshReading& reading, double lost_max);
+
+/// Moves a mesh so far from the origin that single precision loses a millimetre, a map grid's say,
+/// near it by whole metres of x and y; nothing where that is not what is wrong.
+std::optional<Vec3> offset_to_origin_m(const TriangleMesh& mesh);
+
 /// read_mesh() without faces that are flat (is_flat()). Appends to `warnings` what is left out.
-/// Throws BadInput, too, when no face is left or a coordinate is NaN or infinite.
+/// Throws BadInput, too, when no face is left, more are lost than lost_max, a coordinate is NaN or
+/// infinite, or offset_to_origin_m() knows better.
 TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* warnings = nullptr);
 
 /// Writes .obj (with its .mtl beside it), .ply (binary, faces coloured) or .glb (turned to y up) by

@@ -185,7 +185,7 @@ PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>
   return out;
 }
 
-std::vector<Vec3f> read_ply_points(const std::filesystem::path& path) {
+std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3& offset_m) {
   PlyFile ply(path);
   std::vector<Vec3f> points;
   for (const PlyElement& element : ply.elements()) {
@@ -193,7 +193,7 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path) {
     const Columns xyz = is_vertices ? xyz_of(ply, element) : Columns{};
     if (is_vertices) points.reserve(ply.most_items(element));
     ply.for_each_item(element, [&](const PlyItem& item) {
-      if (is_vertices) points.push_back(position_of(item, xyz).cast<float>());
+      if (is_vertices) points.push_back((position_of(item, xyz) + offset_m).cast<float>());
     });
     if (is_vertices && !ply.is_free()) break;
   }

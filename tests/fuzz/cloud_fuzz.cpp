@@ -54,6 +54,10 @@ void check(char kind, std::string_view content) {
       return check_cloud(written(content, "cloud.ply"));
     case 'x':
       return check_cloud(written(content, "cloud.xyz"));
+    case 'c':
+      return check_cloud(written(content, "cloud.pcd"));
+    case 'l':
+      return check_cloud(written(content, "cloud.las"));
     case 'o':
       read_octomap(written(content, "map.ot"));
       return;

@@ -30,7 +30,8 @@ struct ScoreOptions {
   int threads = 0;
   bool update = false;
   ScoreWish wish;
-  std::vector<double> box_m;  // x0, y0, z0, x1, y1, z1
+  std::vector<double> offset_m;  // x, y, z; empty: none
+  std::vector<double> box_m;     // x0, y0, z0, x1, y1, z1
   bool json = false;
 };
 
@@ -52,8 +53,13 @@ Scored score_file(ScoreOptions options, int threads) {
   if (!options.floor_z_m.empty()) {
     options.scenario.overrides.push_back("planner.floor_z_m=" + options.floor_z_m);
   }
-  const Scored scored = score_any_cloud(options.target, read_cloud(options.target),
-                                        resolve_scenario(options.scenario), options.wish, threads);
+  const std::vector<double>& d = options.offset_m;
+  const Vec3 offset_m = d.empty() ? Vec3::Zero() : Vec3(d[0], d[1], d[2]);
+  std::vector<std::string> warnings;
+  const std::vector<Vec3f> points = read_cloud(options.target, offset_m, &warnings);
+  for (const std::string& warning : warnings) say(warning);
+  const Scored scored = score_any_cloud(options.target, points, resolve_scenario(options.scenario),
+                                        options.wish, threads);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
     say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
@@ -65,11 +71,12 @@ Scored score_file(ScoreOptions options, int threads) {
 
 Scored score_folder(const ScoreOptions& options, int threads) {
   const bool says_more = !options.scenario.mesh.empty() || !options.scenario.scenario.empty() ||
-                         !options.floor_z_m.empty() || !options.scenario.overrides.empty();
+                         !options.floor_z_m.empty() || !options.scenario.overrides.empty() ||
+                         !options.offset_m.empty();
   if (says_more) {
     throw BadInput(
         fmt::format("{}: a run is scored by its own scenario.yaml: --mesh, --scenario, "
-                    "--floor-z and --set are for clouds",
+                    "--floor-z, --offset-m and --set are for clouds",
                     options.target));
   }
   if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
@@ -118,7 +125,9 @@ void add_score_command(CLI::App& app) {
   auto options = std::make_shared<ScoreOptions>();
   CLI::App* const command =
       app.add_subcommand("score", "measure any cloud, or a run, against the true surface");
-  command->add_option("CLOUD|RUN", options->target, ".ply or .xyz cloud (m), or a run directory")
+  command
+      ->add_option("CLOUD|RUN", options->target,
+                   ".ply, .pcd, .las, .xyz, .pts, .txt, .asc or .csv cloud (m), or a run directory")
       ->required();
   command->add_option("--mesh", options->scenario.mesh, "mesh file that holds the true surface");
   command->add_option("--scenario", options->scenario.scenario,
@@ -136,10 +145,17 @@ void add_score_command(CLI::App& app) {
                    "edges of the voxels of the coverage (m), with commas (default: score.sizes_m)")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command
+      ->add_option("--offset-m", options->offset_m,
+                   "x,y,z (m), added to all points of a cloud before anything is rounded: for map "
+                   "grids such as UTM, with structure.file.offset_m of the mesh")
+      ->delimiter(',')
+      ->expected(3);
   command->add_option("--box", options->box_m, "x0,y0,z0,x1,y1,z1 (m): score only what lies inside")
       ->delimiter(',')
       ->allow_extra_args(false);
   add_threads_option(*command, options->threads);
+  add_quiet_option(*command, options->wish.is_quiet);
   command->add_flag("--update", options->update,
                     "put the score into the run's summary.json and coverage.csv");
   command->add_flag_callback(

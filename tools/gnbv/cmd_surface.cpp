@@ -10,7 +10,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/surface/surface.hpp"
+#include "tools/surface/cloud_surface.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/streams.hpp"
@@ -25,6 +25,7 @@ struct SurfaceOptions {
   fs::path out;
   std::string depth = "auto";
   SurfaceSettings settings;
+  std::vector<double> offset_m;  // x, y, z of a cloud; empty: none
   bool no_texture = false;
   int threads = 0;
   bool quiet = false;
@@ -43,10 +44,30 @@ int depth_of(const std::string& text) {
   return depth;
 }
 
+void surface_from_cloud(const SurfaceOptions& options, const SurfaceSettings& settings) {
+  fs::path folder = options.out;
+  if (folder.empty()) folder = fs::path(options.run).replace_extension().string() + "_surface";
+  const std::vector<double>& d = options.offset_m;
+  std::vector<std::string> notes;
+  const CloudSurface made = [&] {
+    ProgressBar bar("surface", options.quiet);
+    return surface_of_cloud(
+        options.run, d.empty() ? Vec3::Zero() : Vec3(d[0], d[1], d[2]), settings, folder,
+        thread_count(options.threads),
+        [&](double share, const std::string& note) { bar.show(share, note); }, notes);
+  }();
+  for (const std::string& note : notes) say(note);
+  if (options.json) return fmt::print("{}", made.json);
+  for (const fs::path& file : made.files) fmt::print("{}\n", file.string());
+  fmt::print("\n{}", made.text);
+}
+
 void surface(const SurfaceOptions& options) {
   SurfaceSettings settings = options.settings;
   settings.depth = depth_of(options.depth);
   settings.has_texture = !options.no_texture;
+  if (fs::is_regular_file(options.run)) return surface_from_cloud(options, settings);
+  if (!options.offset_m.empty()) throw BadInput("--offset-m: is for clouds, not for runs");
   const RunRecord record = read_run(options.run);
   for (const std::string& missing : record.missing) say(missing);
   const fs::path folder = options.out.empty() ? options.run / kSurfaceFolder : options.out;
@@ -68,9 +89,19 @@ void surface(const SurfaceOptions& options) {
 void add_surface_command(CLI::App& app) {
   auto options = std::make_shared<SurfaceOptions>();
   CLI::App* const command = app.add_subcommand(
-      "surface", "a textured mesh from what a run saw, scored against the true structure");
-  command->add_option("RUN", options->run, "run directory")->required();
-  command->add_option("-o,--out", options->out, "folder to write (default: RUN/surface)");
+      "surface",
+      "a textured mesh from what a run saw, scored against the true structure; or a mesh to fly "
+      "around from any cloud, with its error");
+  command->add_option("RUN|CLOUD", options->run, "run directory, or a cloud as `score` reads it")
+      ->required();
+  command->add_option("-o,--out", options->out,
+                      "folder to write (default: RUN/surface, or CLOUD_surface)");
+  command
+      ->add_option("--offset-m", options->offset_m,
+                   "x,y,z (m), added to all points of a cloud before anything is rounded: for map "
+                   "grids such as UTM")
+      ->delimiter(',')
+      ->expected(3);
   command->add_option("--depth", options->depth,
                       "of Poisson's octree, 5 to 12; one more is twice as fine and four times as "
                       "slow (default: auto, by leaf and extent of the cloud, up to 10)");

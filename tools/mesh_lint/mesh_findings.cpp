@@ -251,10 +251,9 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
     out.push_back({"file", Severity::warning, warning, "export the mesh again, if it matters"});
   }
   const MeshLint& lint = report.lint;
-  constexpr double kMostLost = 0.01;
   const std::size_t lost = report.reading.lost_faces;
   const std::size_t held = lost + report.reading.mesh.faces.size();
-  if (static_cast<double>(lost) > kMostLost * static_cast<double>(held)) {
+  if (has_lost_more(report.reading, scenario.structure.file.lost_max)) {
     out.push_back({"lost", Severity::error,
                    fmt::format("{} of {} could not be used: this is not the shape that was meant",
                                lost, counted(held, "face", "faces")),

@@ -51,7 +51,9 @@ void need_memory_for(const Scenario& scenario, int threads) {
 void need_saved_profile(const Scenario& scenario) {
   const ProfilingConfig& profiling = scenario.planner.profiling;
   if (profiling.method != ProfilingMethod::saved) return;
-  read_belief(profiling.file, planner_model(scenario));
+  std::vector<std::string> notes;
+  read_belief(profiling.file, planner_model(scenario), &notes);
+  for (const std::string& note : notes) say(note);
 }
 
 /// Who flies given views needs some.

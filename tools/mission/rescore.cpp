@@ -13,6 +13,7 @@
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/terminal/progress.hpp"
 
 namespace gnbv {
 namespace {
@@ -27,8 +28,12 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
   if (!wish.sizes_m.empty()) scenario.score.sizes_m = wish.sizes_m;
   need_room_for(scenario.score.sizes_m, world.structure);
   cloud.region_m = scenario.score.region_m;
-  const SurfaceReference reference = reference_of(scenario, world, scene, threads);
+  ProgressBar bar("score", wish.is_quiet);
+  bar.show(0.0, "finding what there is to see");
+  const SurfaceReference reference = reference_of(
+      scenario, world, scene, threads, [&](const std::string& note) { bar.show(0.0, note); });
   const double reference_s = watch.elapsed_s();
+  bar.show(0.2, fmt::format("comparing {} points", grouped(cloud.points_world_m.size())));
   Scored scored{
       .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
                            MoreSizes{scenario.score.sizes_m, world, reference_config(scenario)}),

@@ -16,6 +16,7 @@ struct ScoreWish {
   std::vector<double> sizes_m = {};          // of voxels, instead of score.sizes_m
   std::optional<Box3> box_m = {};            // only what lies in it
   CeilingFrom ceiling = CeilingFrom::cache;  // of a run; of a part of it there is none
+  bool is_quiet = false;                     // no progress on stderr
 };
 
 /// A score, and what it is of.

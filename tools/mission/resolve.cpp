@@ -6,6 +6,7 @@
 
 #include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
+#include "sim/mesh/model_parts.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/run/user_views.hpp"
 
@@ -33,7 +34,8 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
   };
   // absolute, since a relative path in a scenario file is relative to that file
   if (!options.mesh.empty()) {
-    if (!fs::is_regular_file(options.mesh)) read_file(options.mesh);  // throws, with the cause
+    const fs::path file = model_file_of(options.mesh);
+    if (!fs::is_regular_file(file)) read_file(file);  // throws, with the cause
     const std::string path = yaml_in_quotes(fs::absolute(options.mesh).string());
     add(overrides_of(
         {"structure.files=[]", "structure.offset_m=[0,0,0]", "structure.file.path=" + path}));

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sim/core/image.hpp"
@@ -21,9 +22,13 @@ struct CloudColumns {
 void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesystem::path& path,
                      const CloudColumns& columns = {});
 
-/// The vertices of a .ply file, whatever else it holds, or the first three numbers of each line of
-/// an .xyz file, in which empty lines and those that begin with # are none. Coordinates may be NaN
-/// or infinite. Throws BadInput naming the file, and the line, that is no such cloud.
-std::vector<Vec3f> read_cloud(const std::filesystem::path& path);
+/// The vertices of a .ply file, whatever else it holds, or the points of a .pcd, .las or text file
+/// (.xyz, .pts, .txt, .asc, .csv; tools/run/cloud_formats.hpp), moved by the offset before they are
+/// rounded to single precision. Coordinates may be NaN or infinite, but of .pcd. Appends to
+/// `warnings` what is left out. Throws BadInput naming the file, and the line, that is no such
+/// cloud.
+std::vector<Vec3f> read_cloud(const std::filesystem::path& path,
+                              const Vec3& offset_m = Vec3::Zero(),
+                              std::vector<std::string>* warnings = nullptr);
 
 }  // namespace gnbv

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <queue>
+#include <tuple>
 
 #include "bench/score/point_tree.hpp"
 #include "sim/core/error.hpp"
@@ -72,7 +75,71 @@ Vec3f settled(const std::vector<Normal>& normals, std::size_t point,
   return votes < 0.0F ? Vec3f(-own.unit) : own.unit;
 }
 
+/// Turns normals over until neighbours agree, as a minimum spanning tree of their turning leads
+/// from the highest point of each part.
+void agree(std::span<const Vec3f> points_m,
+           std::span<const std::array<Neighbour, kNeighbours>> near, std::vector<Normal>& normals) {
+  struct Step {
+    float turning;
+    std::uint32_t from, to;
+    auto key() const { return std::tuple(turning, to, from); }
+    bool operator<(const Step& other) const { return key() > other.key(); }  // the least on top
+  };
+  std::vector<std::uint32_t> by_height(points_m.size());
+  std::iota(by_height.begin(), by_height.end(), 0U);
+  std::sort(by_height.begin(), by_height.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(-points_m[a].z(), a) < std::pair(-points_m[b].z(), b);
+  });
+  std::vector<std::uint8_t> is_done(points_m.size());
+  std::priority_queue<Step> open;
+  const auto take = [&](std::uint32_t i) {
+    is_done[i] = 1;
+    for (const Neighbour& n : near[i]) {
+      if (is_done[n.point] != 0 || normals[n.point].unit.isZero()) continue;
+      open.push({1.0F - std::abs(normals[i].unit.dot(normals[n.point].unit)), i, n.point});
+    }
+  };
+  for (const std::uint32_t seed : by_height) {
+    if (is_done[seed] != 0 || normals[seed].unit.isZero()) continue;
+    if (normals[seed].unit.z() < 0.0F) normals[seed].unit *= -1.0F;
+    take(seed);
+    for (; !open.empty();) {
+      const Step step = open.top();
+      open.pop();
+      if (is_done[step.to] != 0) continue;
+      Vec3f& unit = normals[step.to].unit;
+      if (unit.dot(normals[step.from].unit) < 0.0F) unit *= -1.0F;
+      take(step.to);
+    }
+  }
+}
+
+OrientedCloud with_normals(std::span<const Vec3f> points_m, const std::vector<Normal>& normals) {
+  OrientedCloud cloud;
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    if (normals[i].unit.isZero()) continue;
+    cloud.points_world_m.push_back(points_m[i]);
+    cloud.normals_world.push_back(normals[i].unit);
+    cloud.spacing_m.push_back(normals[i].spacing_m);
+  }
+  return cloud;
+}
+
 }  // namespace
+
+OrientedCloud oriented_by_neighbours(std::span<const Vec3f> points_m, int threads) {
+  if (points_m.size() < kNeighbours) return {};
+  const PointTree tree(points_m);
+  std::vector<Normal> normals(points_m.size());
+  std::vector<std::array<Neighbour, kNeighbours>> near(points_m.size());
+  for_each_point(threads, points_m.size(), [&](std::size_t i) {
+    const auto found = tree.nearest(points_m[i], near[i]);
+    normals[i] = normal_at(points_m, found);
+    normals[i].spacing_m = spacing_of(found);
+  });
+  agree(points_m, near, normals);
+  return with_normals(points_m, normals);
+}
 
 OrientedCloud oriented(const SeenPoints& seen, int threads) {
   const std::span<const Vec3f> points_m = seen.points_world_m;
@@ -96,22 +163,13 @@ OrientedCloud oriented(const SeenPoints& seen, int threads) {
     normals[i] = normal;
   });
 
-  std::vector<Vec3f> settled_normals(points_m.size());
+  std::vector<Normal> settled_normals = normals;
   for_each_point(threads, points_m.size(), [&](std::size_t i) {
-    settled_normals[i] = normals[i].unit;
-    if (normals[i].cosine >= kSureCosine) return;
+    if (normals[i].unit.isZero() || normals[i].cosine >= kSureCosine) return;
     std::array<Neighbour, kNeighbours> neighbours{};
-    settled_normals[i] = settled(normals, i, tree.nearest(points_m[i], neighbours));
+    settled_normals[i].unit = settled(normals, i, tree.nearest(points_m[i], neighbours));
   });
-
-  OrientedCloud cloud;
-  for (std::size_t i = 0; i < points_m.size(); ++i) {
-    if (normals[i].unit.isZero()) continue;
-    cloud.points_world_m.push_back(points_m[i]);
-    cloud.normals_world.push_back(settled_normals[i]);
-    cloud.spacing_m.push_back(normals[i].spacing_m);
-  }
-  return cloud;
+  return with_normals(points_m, settled_normals);
 }
 
 }  // namespace gnbv

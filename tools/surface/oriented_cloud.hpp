@@ -44,4 +44,9 @@ struct OrientedCloud {
 /// neighbours lie on one line are left out. Deterministic at any number of threads.
 OrientedCloud oriented(const SeenPoints& seen, int threads);
 
+/// The same of points of which nobody knows what saw them: normals agree from neighbour to
+/// neighbour along the least turning ones (Hoppe et al. 1992), and each connected part's highest
+/// point faces up.
+OrientedCloud oriented_by_neighbours(std::span<const Vec3f> points_world_m, int threads);
+
 }  // namespace gnbv

@@ -1,8 +1,10 @@
 #include <algorithm>
 
+#include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
+#include "sim/mesh/model_parts.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/sweep/sweep.hpp"
 #include "tools/sweep/sweep_yaml.hpp"
@@ -56,7 +58,11 @@ std::string CellNamer::content_path(const std::string& path) {
   std::string& known = content_paths_[path];
   if (known.empty()) {
     Sha256 hash;
-    hash.add(read_file(path));
+    if (is_model(path)) {
+      add_mesh(hash, read_mesh({.path = path}).mesh);
+    } else {
+      hash.add(read_file(path));
+    }
     known = "/sha256/" + hash.hex();  // absolute: to_yaml() puts the current folder before others
   }
   return known;

@@ -89,7 +89,7 @@ class SweepReader {
     scenario.scenario = scenario_of(node.find("scenario"), path + ".scenario");
     const std::string mesh =
         values_.text_of(node.find("mesh"), path + ".mesh", "the path of a mesh");
-    if (!mesh.empty() && fs::is_regular_file(absolute(mesh))) {
+    if (!mesh.empty() && fs::exists(absolute(mesh))) {  // a file, or the folder of a model
       scenario.mesh = absolute(mesh);
     } else if (!mesh.empty()) {
       values_.fault(*node.find("mesh"), path + ".mesh", "no such file");

@@ -34,7 +34,7 @@ TEST_F(MeshFile, FacesWithoutAreaAreDroppedAndReported) {
 
 TEST_F(MeshFile, BadFilesAreNamedWithTheirFault) {
   EXPECT_TRUE(says(complaint(file(folder_ / "absent.obj")), {"absent.obj: No such file"}));
-  EXPECT_TRUE(says(complaint(file(folder_)), {"is a directory"}));
+  EXPECT_TRUE(says(complaint(file(folder_)), {"is a folder without model.sdf"}));
   EXPECT_TRUE(says(complaint(file(write("a.xyzzy", "1 2 3"))), {"a.xyzzy: '.xyzzy' is no known"}));
   for (const char* name : {"a.fbx", "a.x3d", "a.3ds", "a.off", "a.blend", "a.ifc", "a.obj.gz"}) {
     EXPECT_TRUE(
@@ -111,7 +111,7 @@ TEST_F(MeshFile, GarbageOutsideTheVerticesIsLeftOutAndReported) {
   const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\n";
   const std::string tail = "\nvt 0.5 x\nvt 1 1\nf 1/1 2/1 3/2\nf 1/1 2/2 99/1\nf 1 4 2\nf 1 2\n";
   std::vector<std::string> warnings;
-  const TriangleMesh mesh = load_mesh(file(write("t.obj", head + garbage + tail)), &warnings);
+  const TriangleMesh mesh = load_mesh(forgiven(write("t.obj", head + garbage + tail)), &warnings);
   EXPECT_EQ(mesh.vertices_m.size(), 4U);
   ASSERT_EQ(mesh.faces.size(), 2U);
   EXPECT_EQ(mesh.faces[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
@@ -124,7 +124,7 @@ TEST_F(MeshFile, GarbageOutsideTheVerticesIsLeftOutAndReported) {
 TEST_F(MeshFile, GarbageAmongTheVerticesIsRefused) {
   const auto with = [&](const std::string& middle) {
     return complaint(
-        file(write("t.obj", "v 0 0 0\nv 1 0 0\n" + middle + "v 0 1 0\nv 0 0 1\nf 1 2 3\n")));
+        forgiven(write("t.obj", "v 0 0 0\nv 1 0 0\n" + middle + "v 0 1 0\nv 0 0 1\nf 1 2 3\n")));
   };
   EXPECT_EQ(with("# comment\nvt 0 0\n"), "");
   for (const auto& [middle, where] :
@@ -136,6 +136,54 @@ TEST_F(MeshFile, GarbageAmongTheVerticesIsRefused) {
   }
   EXPECT_EQ(with("vt 0 0\n.7 0.3 1\nvt 1 1\n"), "");
   EXPECT_EQ(with("f 1 2\n"), "");  // a face, if a broken one
+}
+
+TEST_F(MeshFile, MoreThanAHundredthOfTheFacesLostIsRefusedUnlessAskedFor) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n";
+  for (int i = 0; i < 98; ++i) text += "f 1 2 3\n";
+  EXPECT_EQ(complaint(file(write("a.obj", text + "f 1 2 3\n"))), "");
+  const auto path = write("b.obj", text);
+  EXPECT_EQ(complaint(file(path)),
+            path.string() +
+                ": 1 faces of 99 could not be used, more than its key lost_max = 0.01 "
+                "allows: 1 faces of vertices that do not exist left out, the first in "
+                "line 4");
+  EXPECT_EQ(load_mesh(forgiven(path)).faces.size(), 98U);
+}
+
+TEST_F(MeshFile, MillimetresBesideTheOffsetOfAMapGridAreKept) {
+  const std::string rows =
+      "500001.234 5000002.345 0.003\n500002.234 5000002.345 0.003\n"
+      "500001.234 5000003.345 1.003\n";
+  const std::string obj = "v " + replaced(replaced(rows, "\n5", "\nv 5"), "0.003\n5", "0.003\nv 5");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
+      "property double y\nproperty double z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n" +
+      rows + "3 0 1 2\n";
+  const std::string dae =
+      "<COLLADA><asset><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id='g'><mesh>"
+      "<source id='s'><float_array id='f'>" +
+      rows +
+      "</float_array><technique_common><accessor "
+      "source='#f' count='3' stride='3'/></technique_common></source><vertices id='v'><input "
+      "semantic='POSITION' source='#s'/></vertices><triangles count='1'><input semantic='VERTEX' "
+      "source='#v' offset='0'/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>"
+      "</COLLADA>";
+  for (const auto& [name, text] :
+       {std::pair("a.obj", obj + "f 1 2 3\n"), {"a.ply", ply}, {"a.dae", dae}, {"a.stl", ""}}) {
+    const bool is_stl = std::string(name) == "a.stl";
+    std::string stl = "solid a\nfacet normal 0 0 1\nouter loop\n";
+    std::istringstream lines(rows);
+    for (std::string line; std::getline(lines, line);) stl += "vertex " + line + "\n";
+    MeshFileConfig config =
+        file(write(name, is_stl ? stl + "endloop\nendfacet\nendsolid\n" : text));
+    EXPECT_TRUE(says(complaint(config), {"offset_m to [-500002, -5000003, 0]"})) << name;
+    config.offset_m = Vec3(-500'000, -5'000'000, 0);
+    const Box3 box_m = bounds_m(load_mesh(config));
+    EXPECT_LT((box_m.min() - Vec3(1.234, 2.345, 0.003)).norm(), 1e-6) << name;
+    EXPECT_LT((box_m.max() - Vec3(2.234, 3.345, 1.003)).norm(), 1e-6) << name;
+  }
 }
 
 TEST_F(MeshFile, AnObjHasUpTo65536Materials) {

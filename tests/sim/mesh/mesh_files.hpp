@@ -31,6 +31,13 @@ inline MeshFileConfig file(const std::filesystem::path& path) {
   return config;
 }
 
+/// One that may lose all of its faces.
+inline MeshFileConfig forgiven(const std::filesystem::path& path) {
+  MeshFileConfig config = file(path);
+  config.lost_max = 1.0;
+  return config;
+}
+
 /// The message of the BadInput that loading throws; empty when it loads.
 inline std::string complaint(const MeshFileConfig& config) {
   return test::fault_of([&] { load_mesh(config); });

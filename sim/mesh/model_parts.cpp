@@ -1,0 +1,269 @@
+#include "sim/mesh/model_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/polygon_mesh.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Matrix4 = Eigen::Matrix4d;
+
+constexpr std::size_t kMostModelFaces = std::size_t{1} << 27U;
+
+std::string trimmed_text(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  const std::size_t first = text.find_first_not_of(" \r");
+  if (first == text.npos) return "";
+  return text.substr(first, text.find_last_not_of(" \r") - first + 1);
+}
+
+/// How many sides keep the flat ones within 2 mm of the round surface.
+int sides_for(double radius_m) {
+  constexpr double kOff_m = 2e-3;
+  const double sides = kPi / std::acos(std::clamp(1.0 - kOff_m / radius_m, 0.0, 1.0 - 1e-9));
+  return 4 * static_cast<int>(std::ceil(std::clamp(sides, 16.0, 256.0) / 4.0));
+}
+
+/// The surface of a profile of (radius, height) from bottom to top, turned about z.
+TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile, int sides) {
+  TriangleMesh mesh;
+  const auto turn = [&](int i) { return 2.0 * kPi * (i % sides) / sides; };
+  std::vector<std::uint32_t> first;
+  for (const Eigen::Vector2d& p : profile) {
+    first.push_back(static_cast<std::uint32_t>(mesh.vertices_m.size()));
+    for (int i = 0; i < (p.x() > 0.0 ? sides : 1); ++i) {
+      mesh.vertices_m.emplace_back(p.x() * std::cos(turn(i)), p.x() * std::sin(turn(i)), p.y());
+    }
+  }
+  const auto at = [&](std::size_t k, int i) {
+    return first[k] + static_cast<std::uint32_t>(profile[k].x() > 0.0 ? i % sides : 0);
+  };
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+    for (int i = 0; i < sides; ++i) {
+      if (profile[k].x() > 0.0) mesh.faces.push_back({at(k, i), at(k, i + 1), at(k + 1, i + 1)});
+      if (profile[k + 1].x() > 0.0)
+        mesh.faces.push_back({at(k, i), at(k + 1, i + 1), at(k + 1, i)});
+    }
+  }
+  return mesh;
+}
+
+/// A ball, pulled apart along z by a length.
+TriangleMesh capsule(double radius_m, double length_m) {
+  const int sides = sides_for(radius_m), quarter = sides / 4;
+  std::vector<Eigen::Vector2d> profile;
+  for (int i = -quarter; i <= quarter; ++i) {
+    const double angle_rad = kPi / 2.0 * i / quarter;
+    const bool is_pole = std::abs(i) == quarter;
+    profile.emplace_back(is_pole ? 0.0 : radius_m * std::cos(angle_rad),
+                         radius_m * std::sin(angle_rad) + (i < 0 ? -0.5 : 0.5) * length_m);
+    if (i == 0 && length_m > 0.0) profile.insert(profile.end() - 1, {radius_m, -0.5 * length_m});
+  }
+  return revolved(profile, sides);
+}
+
+void transform(TriangleMesh& mesh, const Matrix4& T) {
+  for (Vec3f& p : mesh.vertices_m) {
+    p = (T.topLeftCorner<3, 3>() * p.cast<double>() + T.topRightCorner<3, 1>()).cast<float>();
+  }
+  if (T.topLeftCorner<3, 3>().determinant() >= 0.0) return;
+  for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+}
+
+/// An attribute of URDF or a child of SDF.
+std::string value_of(const fs::path& document, const XmlElement& shape, const char* name) {
+  const auto attribute = shape.attribute(name);
+  if (!attribute && !shape.child(name)) {
+    fail_at(document, shape, fmt::format("<{}> without {}", shape.name(), name));
+  }
+  return trimmed_text(attribute ? *attribute : shape.child(name).text());
+}
+
+}  // namespace
+
+void fail_at(const fs::path& document, const XmlElement& at, const std::string& what) {
+  throw BadInput(fmt::format("{}:{}: {}", document.string(), at.line(), what));
+}
+
+std::vector<double> numbers_of(const fs::path& document, const XmlElement& at, std::string text,
+                               std::initializer_list<std::size_t> counts) {
+  text = trimmed_text(std::move(text));
+  std::string_view rest = text;
+  std::vector<double> values;
+  for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
+    const auto value = read_decimal(word);
+    if (!value || !std::isfinite(*value)) {
+      fail_at(document, at, fmt::format("<{}>: '{}' is no number", at.name(), word.substr(0, 60)));
+    }
+    values.push_back(*value);
+  }
+  if (std::find(counts.begin(), counts.end(), values.size()) == counts.end()) {
+    fail_at(document, at, fmt::format("<{}> has {} numbers", at.name(), values.size()));
+  }
+  return values;
+}
+
+Matrix4 placed(const Vec3& p_m, const Eigen::Matrix3d& R) {
+  Matrix4 T = Matrix4::Identity();
+  T.topLeftCorner<3, 3>() = R;
+  T.topRightCorner<3, 1>() = p_m;
+  return T;
+}
+
+Eigen::Matrix3d R_rpy(double roll_rad, double pitch_rad, double yaw_rad) {
+  return (Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()) *
+          Eigen::AngleAxisd(roll_rad, Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
+fs::path resolved(const fs::path& document, const XmlElement& at, std::string uri) {
+  uri = percent_decoded(trimmed_text(std::move(uri)));
+  const fs::path folder = fs::absolute(document).parent_path();
+  const std::size_t scheme = uri.find("://");
+  const std::string kind = scheme == uri.npos ? "" : uri.substr(0, scheme);
+  const std::string rest = scheme == uri.npos ? uri : uri.substr(scheme + 3);
+  std::error_code ignored;
+  if (kind.empty() || kind == "file") {
+    if (!rest.empty() && fs::exists(folder / rest, ignored)) return folder / rest;
+  } else if (kind == "model" || kind == "package") {
+    // with the name of the model or package, or in a folder that was renamed
+    const std::size_t slash = std::min(rest.find('/'), rest.size() - 1);
+    for (const std::string& name : {rest, rest.substr(slash + 1)}) {
+      constexpr int kMostUp = 8;
+      fs::path from = folder;
+      for (int up = 0; !name.empty() && up < kMostUp; ++up, from = from.parent_path()) {
+        if (fs::exists(from / name, ignored)) return from / name;
+      }
+    }
+  } else {
+    fail_at(document, at, fmt::format("'{}' is on no disk: download it beside the file", uri));
+  }
+  fail_at(document, at, fmt::format("'{}' is neither in {} nor above it", uri, folder.string()));
+}
+
+const TriangleMesh& ModelParts::mesh_at(const fs::path& file) {
+  const auto [entry, is_new] = meshes_.try_emplace(file.lexically_normal().string());
+  if (!is_new) return entry->second;
+  const bool is_collada = extension_of(file) == ".dae";
+  MeshReading part = read_mesh({.path = entry->first, .up_axis = is_collada ? "z" : "auto"});
+  if (!part.not_finite.empty() && reading.not_finite.empty()) reading.not_finite = part.not_finite;
+  reading.lost_faces += part.lost_faces;
+  reading.warnings.insert(reading.warnings.end(), part.warnings.begin(), part.warnings.end());
+  return entry->second = std::move(part.mesh);
+}
+
+TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& shape) {
+  const std::string_view kind = shape.name();
+  const auto sizes = [&](const char* name, std::size_t count) {
+    const auto v = numbers_of(document, shape, value_of(document, shape, name), {count});
+    if (*std::min_element(v.begin(), v.end()) <= 0.0) {
+      fail_at(document, shape, fmt::format("<{}> has a {} that is not positive", kind, name));
+    }
+    return v;
+  };
+  if (kind == "box") {
+    const auto v = sizes("size", 3);
+    const Vec3 half_m = 0.5 * Vec3(v[0], v[1], v[2]);
+    return box_mesh(Box3(-half_m, half_m));
+  }
+  if (kind == "sphere") return capsule(sizes("radius", 1)[0], 0.0);
+  if (kind == "capsule") return capsule(sizes("radius", 1)[0], sizes("length", 1)[0]);
+  if (kind == "ellipsoid") {
+    const auto v = sizes("radii", 3);
+    const double longest_m = *std::max_element(v.begin(), v.end());
+    TriangleMesh mesh = capsule(longest_m, 0.0);
+    transform(mesh, placed(Vec3::Zero(),
+                           Vec3(v[0], v[1], v[2]).asDiagonal().toDenseMatrix() / longest_m));
+    return mesh;
+  }
+  if (kind == "cylinder" || kind == "cone") {
+    const double radius_m = sizes("radius", 1)[0], half_m = 0.5 * sizes("length", 1)[0];
+    std::vector<Eigen::Vector2d> profile = {{0, -half_m}, {radius_m, -half_m}, {0, half_m}};
+    if (kind == "cylinder") profile.insert(profile.end() - 1, {radius_m, half_m});
+    return revolved(profile, sides_for(radius_m));
+  }
+  if (kind != "mesh") fail_at(document, shape, fmt::format("<{}> is not read", kind));
+  if (shape.child("submesh")) fail_at(document, shape, "<submesh> is not read");
+  const bool is_urdf = shape.attribute("filename").has_value();
+  TriangleMesh mesh =
+      mesh_at(resolved(document, shape, value_of(document, shape, is_urdf ? "filename" : "uri")));
+  if (shape.attribute("scale") || shape.child("scale")) {
+    auto v = numbers_of(document, shape, value_of(document, shape, "scale"), {1, 3});
+    v.resize(3, v[0]);
+    transform(mesh, placed(Vec3::Zero(), Vec3(v[0], v[1], v[2]).asDiagonal().toDenseMatrix()));
+  }
+  return mesh;
+}
+
+void ModelParts::add(const fs::path& document, const XmlElement& geometry,
+                     const Matrix4& T_model_geometry, const Colour& colour) {
+  const std::vector<XmlElement> shapes = geometry.children();
+  if (shapes.size() != 1) {
+    fail_at(document, geometry, fmt::format("<geometry> of {} shapes", shapes.size()));
+  }
+  if (shapes[0].name() == "empty") return;
+  if (shapes[0].name() == "plane" || shapes[0].name() == "heightmap") {
+    ++planes_;
+    return;
+  }
+  TriangleMesh part = shape_of(document, shapes[0]);
+  transform(part, T_world_model_ * T_model_geometry);
+  const Material& first = part.materials.front();
+  if (part.materials.size() == 1 &&
+      (first.name == Material{}.name || first.name == kDefaultMaterial)) {
+    part.materials[0] = {.name = "model", .rgb = colour.value_or(kDefaultColour)};
+  }
+  if (reading.mesh.faces.size() + part.faces.size() > kMostModelFaces) {
+    fail_at(document, geometry, fmt::format("more than {} faces", kMostModelFaces));
+  }
+  part.face_material.resize(part.faces.size());
+  if (reading.mesh.faces.empty()) {
+    reading.mesh = std::move(part);
+  } else {
+    append(reading.mesh, part);
+  }
+}
+
+void ModelParts::warn_of_planes(const fs::path& document) {
+  if (planes_ == 0) return;
+  reading.warnings.push_back(
+      fmt::format("{}: {} planes or heightmaps left out: the ground is "
+                  "ours, `terrain.path` takes a mesh of it",
+                  document.string(), planes_));
+}
+
+bool is_model(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  std::error_code ignored;
+  return extension == ".sdf" || extension == ".world" || extension == ".urdf" ||
+         fs::is_directory(path, ignored);
+}
+
+fs::path model_file_of(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return path;
+  if (fs::exists(path / "model.config", ignored)) {
+    std::vector<std::string> warnings;
+    const XmlTree config(path / "model.config", warnings);
+    const auto versions = config.root().children("sdf");  // the last one is the newest
+    if (!versions.empty()) return path / trimmed_text(versions.back().text());
+  }
+  if (fs::exists(path / "model.sdf", ignored)) return path / "model.sdf";
+  throw BadInput(fmt::format("{}: is a folder without model.sdf or model.config", path.string()));
+}
+
+MeshReading read_model(const fs::path& path, const Matrix4& T_world_model) {
+  ModelParts parts(T_world_model);
+  (extension_of(path) == ".urdf" ? read_urdf : read_sdf)(path, parts);
+  parts.warn_of_planes(path);
+  return std::move(parts.reading);
+}
+
+}  // namespace gnbv

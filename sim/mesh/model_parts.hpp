@@ -1,0 +1,71 @@
+// What URDF and SDF models share: visible geometry of links, placed in one mesh.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/mesh/mesh_file.hpp"
+#include "sim/mesh/xml_tree.hpp"
+
+namespace gnbv {
+
+/// The mesh of the visuals of a URDF model (links at joint positions 0) or an SDF model or world,
+/// by extension; of .world, SDF. Meshes lie beside the file: `model://` and `package://` are looked
+/// for from its folder upwards. Collision shapes are passed over; so are planes and heightmaps,
+/// with a warning. The up axis of COLLADA is passed over as Gazebo and RViz do, its unit is not.
+/// Throws BadInput naming file and line of what is not read.
+MeshReading read_model(const std::filesystem::path& path, const Eigen::Matrix4d& T_world_model);
+
+/// Whether read_model() reads it: by what lies beside it, too.
+bool is_model(const std::filesystem::path& path);
+
+/// The model file of a folder: what its model.config names, or model.sdf; the path itself where it
+/// is no folder. Throws BadInput for a folder without one.
+std::filesystem::path model_file_of(const std::filesystem::path& path);
+
+class ModelParts {
+ public:
+  using Matrix4 = Eigen::Matrix4d;
+  using Colour = std::optional<std::array<float, 3>>;
+
+  explicit ModelParts(const Matrix4& T_world_model) : T_world_model_(T_world_model) {}
+
+  /// Adds what a <geometry> of a document holds: box, sphere, cylinder, capsule, cone, ellipsoid or
+  /// mesh, of URDF or SDF. The colour is of what has none of its own.
+  void add(const std::filesystem::path& document, const XmlElement& geometry,
+           const Matrix4& T_model_geometry, const Colour& colour);
+  void warn_of_planes(const std::filesystem::path& document);
+
+  MeshReading reading;
+
+ private:
+  TriangleMesh shape_of(const std::filesystem::path& document, const XmlElement& shape);
+  const TriangleMesh& mesh_at(const std::filesystem::path& file);
+
+  Matrix4 T_world_model_;
+  std::map<std::string, TriangleMesh> meshes_;  // by path
+  std::size_t planes_ = 0;
+};
+
+[[noreturn]] void fail_at(const std::filesystem::path& document, const XmlElement& at,
+                          const std::string& what);
+
+/// The numbers of a text, as many as `counts` allows. Throws BadInput naming the element.
+std::vector<double> numbers_of(const std::filesystem::path& document, const XmlElement& at,
+                               std::string text, std::initializer_list<std::size_t> counts);
+
+/// Roll, pitch and yaw about fixed axes, rad.
+Eigen::Matrix4d placed(const Vec3& p_m, const Eigen::Matrix3d& R);
+Eigen::Matrix3d R_rpy(double roll_rad, double pitch_rad, double yaw_rad);
+
+/// What a URI of a document stands for. Throws BadInput for one that is not there.
+std::filesystem::path resolved(const std::filesystem::path& document, const XmlElement& at,
+                               std::string uri);
+
+void read_urdf(const std::filesystem::path& path, ModelParts& to);
+void read_sdf(const std::filesystem::path& path, ModelParts& to);
+
+}  // namespace gnbv

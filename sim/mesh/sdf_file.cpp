@@ -1,0 +1,188 @@
+// read_sdf() of sim/mesh/model_parts.hpp: http://sdformat.org/spec, and its pose semantics.
+#include <algorithm>
+
+#include "sim/mesh/model_parts.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+using Matrix4 = Eigen::Matrix4d;
+
+/// A place in an SDF document.
+struct Place {
+  const fs::path& document;
+  XmlElement element;
+};
+
+[[noreturn]] void fail(const Place& at, const std::string& what) {
+  fail_at(at.document, at.element, what);
+}
+
+/// The <pose> of an element, in whatever it is relative to.
+Matrix4 pose_of(const Place& of) {
+  const XmlElement pose = of.element.child("pose");
+  if (!pose) return Matrix4::Identity();
+  const bool is_quaternion = pose.attribute("rotation_format").value_or("") == "quat_xyzw";
+  const auto v = is_quaternion ? numbers_of(of.document, pose, pose.text(), {0, 7})
+                               : numbers_of(of.document, pose, pose.text(), {0, 6});
+  if (v.empty()) return Matrix4::Identity();
+  const Vec3 p_m(v[0], v[1], v[2]);
+  if (is_quaternion) {
+    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    if (!(q.norm() > 0.0)) fail({of.document, pose}, "<pose> has a quaternion of 0");
+    return placed(p_m, q.normalized().toRotationMatrix());
+  }
+  const std::string degrees = pose.attribute("degrees").value_or("false");
+  const double unit_rad = degrees == "true" || degrees == "1" ? kPi / 180.0 : 1.0;
+  return placed(p_m, R_rpy(unit_rad * v[3], unit_rad * v[4], unit_rad * v[5]));
+}
+
+/// What its pose names, or the fallback.
+std::string base_of(const Place& of, std::string fallback) {
+  const XmlElement pose = of.element.child("pose");
+  if (!pose.attribute("frame").value_or("").empty()) {
+    fail({of.document, pose}, "<pose frame> of SDF 1.5 and 1.6 is not read: use relative_to");
+  }
+  const std::string name = pose.attribute("relative_to").value_or("");
+  return name.empty() ? std::move(fallback) : name;
+}
+
+/// The frames of one model: links, joints, nested models and <frame>s by name, in its own.
+class ModelFrames {
+ public:
+  ModelFrames(const fs::path& document, const XmlElement& model) : document_(document) {
+    for (const XmlElement& element : model.children()) {
+      const std::string_view kind = element.name();
+      std::string base = "__model__";
+      if (kind == "joint") base = text_of(element.child("child"));
+      if (kind == "frame") base = element.attribute("attached_to").value_or(base);
+      const bool is_frame = kind == "link" || kind == "joint" || kind == "frame" || kind == "model";
+      if (!is_frame) continue;
+      frames_[element.attribute("name").value_or("")] = {element,
+                                                         base_of({document, element}, base)};
+    }
+  }
+
+  Matrix4 T_model_frame(const std::string& name, const XmlElement& asked_by, int deep = 0) const {
+    if (name == "__model__" || name.empty()) return Matrix4::Identity();
+    const auto found = frames_.find(name);
+    if (found == frames_.end()) {
+      fail({document_, asked_by}, fmt::format("the frame '{}' is not in this model", name));
+    }
+    constexpr int kMostDeep = 200;
+    if (deep > kMostDeep) {
+      fail({document_, asked_by},
+           fmt::format("the frame '{}' depends on itself, or on more than {} others", name,
+                       kMostDeep));
+    }
+    const auto& [element, base] = found->second;
+    return T_model_frame(base, element, deep + 1) * pose_of({document_, element});
+  }
+  /// Of an element in the model whose pose counts from `fallback` where it names nothing.
+  Matrix4 T_model_of(const XmlElement& element, const std::string& fallback) const {
+    return T_model_frame(base_of({document_, element}, fallback), element) *
+           pose_of({document_, element});
+  }
+
+  static std::string text_of(const XmlElement& element) {
+    std::string text = element.text();
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
+    return text;
+  }
+
+ private:
+  const fs::path& document_;
+  std::map<std::string, std::pair<XmlElement, std::string>> frames_;
+};
+
+class SdfReader {
+ public:
+  explicit SdfReader(ModelParts& to) : to_(to) {}
+
+  /// All models of a document; `T_placed` stands for the pose of its only one.
+  void read(const fs::path& document, const Matrix4& T_world, const Matrix4* T_placed) {
+    const XmlTree tree(document, to_.reading.warnings);
+    const XmlElement root = tree.root();
+    if (root.name() != "sdf" && root.name() != "gazebo") {
+      fail({document, root}, "is no SDF: its root is no <sdf>");
+    }
+    add_models(document, root, T_world, T_placed);
+    for (const XmlElement& world : root.children("world")) {
+      add_models(document, world, T_world, nullptr);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostModels = 10'000;
+
+  void count(const Place& at) {
+    if (++models_ > kMostModels || open_ > 30) {
+      fail(at, fmt::format("more than {} models, or models more than 30 deep", kMostModels));
+    }
+    if (at.element.attribute("placement_frame") || at.element.child("placement_frame")) {
+      fail(at, "placement_frame is not read");
+    }
+  }
+
+  void add_models(const fs::path& document, const XmlElement& parent, const Matrix4& T_world,
+                  const Matrix4* T_placed) {
+    const ModelFrames frames(document, parent);
+    for (const XmlElement& element : parent.children()) {
+      const std::string_view kind = element.name();
+      if (kind != "model" && kind != "include") {
+        if (kind == "actor" || kind == "road" || kind == "population") {
+          fail({document, element}, fmt::format("<{}> is not read", kind));
+        }
+        continue;
+      }
+      count({document, element});
+      ++open_;
+      const Matrix4 T = T_world * (T_placed != nullptr && kind == "model"
+                                       ? *T_placed
+                                       : frames.T_model_of(element, "__model__"));
+      kind == "model" ? add_model(document, element, T) : add_included(document, element, T);
+      --open_;
+    }
+  }
+
+  /// Without a pose beside it, the model's own counts.
+  void add_included(const fs::path& document, const XmlElement& include, const Matrix4& T) {
+    const fs::path found = resolved(document, include, include.child("uri").text());
+    const Matrix4 here = Matrix4::Identity();
+    read(model_file_of(found), T, include.child("pose") ? &here : nullptr);
+  }
+
+  void add_model(const fs::path& document, const XmlElement& model, const Matrix4& T_world_model) {
+    const ModelFrames frames(document, model);
+    for (const XmlElement& link : model.children("link")) {
+      const std::string name = link.attribute("name").value_or("");
+      for (const XmlElement& visual : link.children("visual")) {
+        to_.add(document, visual.child("geometry"), T_world_model * frames.T_model_of(visual, name),
+                colour_of(document, visual));
+      }
+    }
+    add_models(document, model, T_world_model, nullptr);
+  }
+
+  static ModelParts::Colour colour_of(const fs::path& document, const XmlElement& visual) {
+    const XmlElement diffuse = visual.child("material").child("diffuse");
+    if (!diffuse) return std::nullopt;
+    const auto v = numbers_of(document, diffuse, diffuse.text(), {3, 4});
+    std::array<float, 3> rgb{};
+    for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+    return rgb;
+  }
+
+  ModelParts& to_;
+  std::size_t models_ = 0;
+  int open_ = 0;
+};
+
+}  // namespace
+
+void read_sdf(const fs::path& path, ModelParts& to) {
+  SdfReader(to).read(path, Matrix4::Identity(), nullptr);
+}
+
+}  // namespace gnbv

@@ -1,0 +1,182 @@
+// Clouds that other programs write. PCL writes the PCD files, so that it says what stands in them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <fstream>
+#include <random>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "tools/run/cloud_file.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<Vec3f> kPoints = {Vec3f(1, 2, 3), Vec3f(-4.5F, 0, 1e-3F), Vec3f(0.1F, 7, -8)};
+
+class CloudFormats : public testing::Test {
+ protected:
+  fs::path written(const std::string& name, const std::string& content) const {
+    std::ofstream(temp_.path() / name, std::ios::binary) << content;
+    return temp_.path() / name;
+  }
+  std::vector<Vec3f> points_of(const std::string& name, const std::string& content) {
+    warnings_.clear();
+    return read_cloud(written(name, content), Vec3::Zero(), &warnings_);
+  }
+  std::string complaint_of(const std::string& name, const std::string& content) {
+    try {
+      points_of(name, content);
+    } catch (const BadInput& error) {
+      return std::string(error.what()).substr(temp_.path().string().size() + 1);
+    }
+    return "";
+  }
+
+  TempFolder temp_;
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(CloudFormats, PclsFilesHoldPclsPoints) {
+  std::mt19937 random(5);  // NOLINT
+  pcl::PointCloud<pcl::PointXYZRGBNormal> cloud(40, 25);
+  std::vector<Vec3f> finite;
+  for (auto& point : cloud) {
+    for (float& x : point.data) x = static_cast<float>(random()) * 1e-8F;
+    point.x = random() % 10 == 0 ? NAN : point.x;
+    point.y = std::round(point.y);  // so that there is something to compress
+    if (!std::isnan(point.x)) finite.push_back(point.getVector3fMap());
+  }
+  const std::string path = (temp_.path() / "cloud.pcd").string();
+  for (int kind = 0; kind < 3; ++kind) {
+    pcl::PCDWriter writer;
+    if (kind == 0) writer.writeASCII(path, cloud, 9);
+    if (kind == 1) writer.writeBinary(path, cloud);
+    if (kind == 2) writer.writeBinaryCompressed(path, cloud);
+    const std::string whole = read_file(path);
+    EXPECT_EQ(points_of("same.pcd", whole), finite) << kind;
+    ASSERT_EQ(warnings_.size(), 1U);
+    EXPECT_NE(warnings_[0].find(fmt::format("{} points that are not finite", 1000 - finite.size())),
+              std::string::npos)
+        << warnings_[0];
+    for (std::size_t size = 0; size + 1 < whole.size(); size += 1 + size / 3) {
+      EXPECT_NE(complaint_of("cut.pcd", whole.substr(0, size)), "") << kind << " " << size;
+    }
+    std::string damaged = whole;  // never a crash, whatever comes of it
+    for (int i = 0; i < 300; ++i) {
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+      complaint_of("damaged.pcd", damaged);
+    }
+  }
+}
+
+TEST_F(CloudFormats, PcdSaysWhatItHolds) {
+  const std::string head =
+      "# .PCD v.7\nVERSION .7\nFIELDS label z y x\nSIZE 2 8 4 4\n"
+      "TYPE U F I F\nCOUNT 3 1 1 1\nWIDTH 2\nHEIGHT 1\n";
+  EXPECT_EQ(points_of("a.pcd", head + "DATA ascii\n1 2 3 9.5 -8 7\n1 2 3 0 0 -0.5\n"),
+            (std::vector{Vec3f(7, -8, 9.5F), Vec3f(-0.5F, 0, 0)}));
+  EXPECT_EQ(complaint_of("a.pcd", head + "DATA ascii\n1 2 3 9.5 -8 7\n1 2 0 0 0\n"),
+            "a.pcd:11: 5 words, its header says 6");
+  EXPECT_EQ(complaint_of("a.pcd", head + "POINTS 3\nDATA ascii\n"),
+            "a.pcd: its POINTS 3 are not WIDTH 2 times HEIGHT 1");
+  EXPECT_EQ(complaint_of("a.pcd", head + "DATA ascii\n1 2 3 9.5 -8 7\n"),
+            "a.pcd: ends after 1 of the 2 points that its header announces");
+  points_of("a.pcd",
+            head + "VIEWPOINT 1 0 0 1 0 0 0\nDATA ascii\n1 2 3 9.5 -8 7\n1 2 3 0 0 0\n9\n");
+  ASSERT_EQ(warnings_.size(), 2U);
+  EXPECT_NE(warnings_[0].find("VIEWPOINT 1 0 0 1 0 0 0 is not applied"), std::string::npos);
+  EXPECT_NE(warnings_[1].find("1 rows after the last point left out"), std::string::npos);
+  const std::string huge = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2000000000\nDATA binary";
+  EXPECT_NE(complaint_of("h.pcd", huge + "\nabc").find("ends after 0 of the"), std::string::npos);
+  EXPECT_NE(complaint_of("h.pcd", huge + "_compressed\nabcdefghi"), "");
+}
+
+TEST_F(CloudFormats, TextsOfManyPrograms) {
+  const std::string rows = "1 2 3\n-4.5 0 1e-3\n0.1 7 -8\n";
+  for (const char* name : {"a.xyz", "a.txt", "a.asc", "a.pts", "a.csv"}) {
+    EXPECT_EQ(points_of(name, "// X Y Z\n% made by hand\n" + rows), kPoints) << name;
+  }
+  EXPECT_EQ(points_of("a.pts", "1\r\n1 2 3 -1024 9 9 9\r\n2\n-4.5 0 1e-3 7\n0.1 7 -8 7\n"),
+            kPoints);
+  EXPECT_EQ(points_of("a.csv", "\"id\",\"Y\", X,Z\n1,2,1,3\n2,0,-4.5,1e-3\n3,7,0.1,-8\n"), kPoints);
+}
+
+TEST_F(CloudFormats, TextsThatMissSomethingAreNamedWithTheirLine) {
+  EXPECT_EQ(complaint_of("a.csv", "id,Y,X,Z\n1,2,1,3\n3,,0.1,-8\n"),
+            "a.csv:3: '3,,0.1,-8' has no number under x, y or z");
+  EXPECT_EQ(complaint_of("a.xyz", "1,,2,3\n"),
+            "a.xyz:1: '1,,2,3' does not begin with three numbers");
+  EXPECT_EQ(complaint_of("a.txt", "east north up\n1 2 3\n"),
+            "a.txt:1: 'east north up' does not begin with three numbers");
+  EXPECT_EQ(complaint_of("a.pts", "3\n1 2 3\n4 5 6\n"),
+            "a.pts: holds 2 of the 3 points that it announces");
+  EXPECT_EQ(complaint_of("a.pts", "1\n1 2 3\n4 5 6\n"),
+            "a.pts:3: '4 5 6' follows the 1 points that the file announces");
+  EXPECT_NE(complaint_of("a.e57", "x").find("CloudCompare"), std::string::npos);
+}
+
+/// A LAS file of one version, point format 0, whose scale is a millimetre.
+std::string las_of(std::uint8_t minor, const std::vector<std::array<std::int32_t, 3>>& points) {
+  std::string las(minor >= 4 ? 375 : 227, '\0');
+  const auto put = [&](std::size_t at, auto value) {
+    std::string bytes;
+    append_bytes(bytes, value);
+    las.replace(at, bytes.size(), bytes);
+  };
+  las.replace(0, 4, "LASF");
+  put(24, std::uint8_t{1});
+  put(25, minor);
+  put(96, static_cast<std::uint32_t>(las.size()));
+  put(105, std::uint16_t{20});
+  if (minor < 4) put(107, static_cast<std::uint32_t>(points.size()));
+  if (minor >= 4) put(247, std::uint64_t{points.size()});
+  for (std::size_t axis = 0; axis < 3; ++axis) put(131 + 8 * axis, 0.001);
+  put(155, 500'000.0);
+  put(163, 5'000'000.0);
+  for (const auto& point : points) {
+    for (const std::int32_t x : point) append_bytes(las, x);
+    las += std::string(8, '\7');
+  }
+  return las;
+}
+
+TEST_F(CloudFormats, LasKeepsItsMillimetresBesideTheOffsetOfAMapGrid) {
+  for (const std::uint8_t minor : {std::uint8_t{2}, std::uint8_t{4}}) {
+    const std::string whole = las_of(minor, {{1, -2, 3}, {40'001, 2'000'000, -1}});
+    const auto points = read_cloud(written("a.las", whole), Vec3(-500'000, -5'000'000, 0));
+    ASSERT_EQ(points.size(), 2U);
+    EXPECT_LT((points[0] - Vec3f(0.001F, -0.002F, 0.003F)).norm(), 1e-6F);
+    EXPECT_LT((points[1] - Vec3f(40.001F, 2000.0F, -0.001F)).norm(), 1e-4F);
+    EXPECT_EQ(complaint_of("a.las", whole.substr(0, whole.size() - 1)),
+              "a.las: ends after 1 of the 2 points that its header announces");
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      EXPECT_NE(complaint_of("a.las", whole.substr(0, size)), "") << size;
+    }
+  }
+  std::string packed = las_of(2, {});
+  packed[104] = '\x81';
+  EXPECT_NE(complaint_of("a.laz", packed).find("write('a.las')"), std::string::npos);
+}
+
+TEST_F(CloudFormats, EveryTextKeepsMillimetresBesideTheOffsetOfAMapGrid) {
+  const std::string row = "500001.234 5000002.345 3.456\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\n"
+      "property double y\nproperty double z\nend_header\n" +
+      row;
+  const std::string pcd = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 1\nDATA ascii\n" + row;
+  for (const auto& [name, content] : {std::pair("a.xyz", row), {"a.ply", ply}, {"a.pcd", pcd}}) {
+    const auto points = read_cloud(written(name, content), Vec3(-500'000, -5'000'000, 0));
+    ASSERT_EQ(points.size(), 1U);
+    EXPECT_LT((points[0] - Vec3f(1.234F, 2.345F, 3.456F)).norm(), 1e-6F) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
