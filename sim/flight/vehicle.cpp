@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <new>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/core/error.hpp"
@@ -81,11 +82,33 @@ struct RigidVehicle::Scene {
                              0.5 * airframe.hull_height_m)) {
     world.setGravity(btVector3(0, 0, 0));
     world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
-    if (world_in.has_ground) add_static(&ground_shape);
+    has_ground = world_in.has_ground;
+    if (has_ground) add_static(&ground_shape);
     add_static(world_in.structure);
     add_static(world_in.obstacles);
     terrain_shape = add_static(world_in.terrain);
+    add_body(airframe, T_world_body);
+  }
+  /// With the same meshes.
+  Scene(const Scene& other, const AirframeParameters& airframe, const Isometry& T_world_body)
+      : meshes(other.meshes),
+        terrain_shape(other.terrain_shape),
+        has_ground(other.has_ground),
+        hull_shape(other.hull_shape) {
+    world.setGravity(btVector3(0, 0, 0));
+    world.setForceUpdateAllAabbs(false);
+    if (has_ground) add_static(&ground_shape);
+    for (const auto& mesh : meshes) add_static(mesh->shape.get());
+    add_body(airframe, T_world_body);
+  }
+  ~Scene() {
+    world.removeRigidBody(body.get());
+    for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
 
+  void add_body(const AirframeParameters& airframe, const Isometry& T_world_body) {
     btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
                                                   to_bullet(airframe.inertia_kg_m2));
     info.m_startWorldTransform = to_bullet(T_world_body);
@@ -95,13 +118,6 @@ struct RigidVehicle::Scene {
     body->setActivationState(DISABLE_DEACTIVATION);
     world.addRigidBody(body.get());
   }
-  ~Scene() {
-    world.removeRigidBody(body.get());
-    for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
   void add_static(btCollisionShape* shape) {
     statics.push_back(std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, shape)));
@@ -110,14 +126,15 @@ struct RigidVehicle::Scene {
   /// The shape of a mesh that was added; none for one without faces.
   const btCollisionShape* add_static(const TriangleMesh& mesh) {
     if (mesh.faces.empty()) return nullptr;
-    meshes.push_back(std::make_unique<StaticMesh>(mesh));
+    meshes.push_back(std::make_shared<StaticMesh>(mesh));
     add_static(meshes.back()->shape.get());
     return meshes.back()->shape.get();
   }
 
   // Bullet keeps pointers: declared in order of need, so destroyed in reverse.
-  std::vector<std::unique_ptr<StaticMesh>> meshes;
+  std::vector<std::shared_ptr<StaticMesh>> meshes;
   const btCollisionShape* terrain_shape = nullptr;
+  bool has_ground = false;
   btStaticPlaneShape ground_shape{btVector3(0, 0, 1), 0.0};
   btCylinderShapeZ hull_shape;
   btDefaultCollisionConfiguration configuration{settings_of_bullet()};
@@ -139,6 +156,24 @@ RigidVehicle::RigidVehicle(const AirframeParameters& airframe, const World& worl
   const Eigen::Matrix3d R = state_.T_world_body.linear();
   angular_momentum_world_n_m_s_ = R * airframe_.inertia_kg_m2.cwiseProduct(state_.omega_body_rad_s);
   scene_ = std::make_unique<Scene>(airframe, world, start.T_world_body);
+}
+
+RigidVehicle::RigidVehicle(const RigidVehicle& other)
+    : airframe_(other.airframe_),
+      state_(other.state_),
+      v_world_m_s_(other.v_world_m_s_),
+      angular_momentum_world_n_m_s_(other.angular_momentum_world_n_m_s_),
+      speeds_rad_s_(other.speeds_rad_s_),
+      thrust_n_(other.thrust_n_),
+      has_touched_structure_(other.has_touched_structure_),
+      has_touched_ground_(other.has_touched_ground_) {
+  btCollisionDispatcher& dispatcher = other.scene_->dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    if (dispatcher.getManifoldByIndexInternal(i)->getNumContacts() > 0) {
+      throw std::runtime_error("a vehicle that touches something cannot be copied");
+    }
+  }
+  scene_ = std::make_unique<Scene>(*other.scene_, airframe_, state_.T_world_body);
 }
 
 RigidVehicle::~RigidVehicle() = default;

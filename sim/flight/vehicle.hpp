@@ -14,6 +14,9 @@ class RigidVehicle {
   /// The world is copied into the collision scene. Throws BrokenInvariant on a NaN in `start`.
   RigidVehicle(const AirframeParameters& airframe, const World& world, const VehicleState& start,
                const RotorSpeeds& start_rad_s);
+  /// Shares what stands still. Throws std::runtime_error where the hull touches something: what
+  /// Bullet remembers of a contact cannot be copied.
+  RigidVehicle(const RigidVehicle& other);
   ~RigidVehicle();
 
   /// Rotor references (0 = disarmed) for a body rate, in body axes.

@@ -90,9 +90,10 @@ void close(EnvMission& env) {
   until_answered([&env] { return env.close(); });
 }
 
-void begin(EnvMission& env, std::uint64_t seed) {
+template <typename Where>
+void begin(EnvMission& env, Where where) {
   close(env);
-  env.begin(seed);
+  env.begin(std::move(where));
 }
 
 }  // namespace
@@ -100,15 +101,19 @@ void begin(EnvMission& env, std::uint64_t seed) {
 void bind_env(nb::module_& m) {
   using Free = nb::call_guard<nb::gil_scoped_release>;
   nb::class_<EnvStage>(m, "EnvStage")
-      .def(nb::init<const std::string&, const std::vector<std::string>&, double>(),
-           nb::arg("scenario"), nb::arg("overrides"), nb::arg("goal"), Free())
+      .def(nb::init<const std::string&, const std::vector<std::string>&, double, std::size_t>(),
+           nb::arg("scenario"), nb::arg("overrides"), nb::arg("goal"), nb::arg("seeds"), Free())
       .def_prop_ro("description", &description,
                    nb::sig("def description(self) -> dict[str, typing.Any]"));
+  nb::class_<EnvMoment>(m, "EnvMoment");
   nb::class_<Permits>(m, "Permits").def(nb::init<int>(), nb::arg("count"));
   nb::class_<EnvMission>(m, "EnvMission")
       .def(nb::init<std::shared_ptr<const EnvStage>, std::shared_ptr<Permits>, bool, bool>(),
            nb::arg("stage"), nb::arg("permits"), nb::arg("with_candidates"), nb::arg("with_top"))
-      .def("begin", &begin, nb::arg("seed"))
+      .def("begin", &begin<std::uint64_t>, nb::arg("seed"))
+      .def("resume", &begin<std::shared_ptr<const EnvMoment>>, nb::arg("moment"))
+      .def("keep", &EnvMission::keep, Free())
+      .def("result_sha256", &EnvMission::result_sha256, Free())
       .def("act", &act, nb::arg("view"),
            nb::sig("def act(self, view: numpy.typing.NDArray[numpy.float64]) -> None"))
       .def("wait", &wait, nb::sig("def wait(self) -> dict[str, typing.Any]"))

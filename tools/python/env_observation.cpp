@@ -67,8 +67,7 @@ std::size_t EnvObserver::candidate_count() const {
 }
 
 EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& current,
-                                    std::size_t views, bool with_candidates) {
-  if (views <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
+                                    double first_entropy_nat, bool with_candidates) {
   EnvObservation out{.map = coarse_map(belief.grid), .views = {}, .mask = {}, .candidates = {}};
   const Box3& box_m = model_.navigation_m;
   const Vec3 at = (current.p_world_m - box_m.min()).cwiseQuotient(box_m.sizes());
@@ -77,7 +76,7 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
   }
   out.pose[3] = bounded(std::sin(current.yaw_rad));
   out.pose[4] = bounded(std::cos(current.yaw_rad));
-  out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat_, 1e-9));
+  out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat, 1e-9));
   if (with_candidates) add_candidates(belief, current, out);
   return out;
 }

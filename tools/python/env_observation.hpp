@@ -35,8 +35,8 @@ class EnvObserver {
   EnvObserver(const PlannerConfig& config, const PlannerModel& model, std::vector<double> scales)
       : config_(config), model_(model), scales_(std::move(scales)), scratch_(model_, 1) {}
 
-  /// `views` is how many were taken.
-  EnvObservation observe(const Belief& belief, const ViewPose& current, std::size_t views,
+  /// `first_entropy_nat` is what there was after the first view.
+  EnvObservation observe(const Belief& belief, const ViewPose& current, double first_entropy_nat,
                          bool with_candidates);
   /// How many candidates there always are.
   std::size_t candidate_count() const;
@@ -49,7 +49,6 @@ class EnvObserver {
   const PlannerModel model_;
   std::vector<double> scales_;
   Scratch scratch_;
-  double first_entropy_nat_ = 0.0;
 };
 
 }  // namespace gnbv
