@@ -50,6 +50,7 @@ class RigidVehicle {
   void check() const;
 
   AirframeParameters airframe_;
+  RotorLag lag_;
   VehicleState state_;
   // The momenta, kept so that rounding alone can change them. At rest on the ground the velocity
   // here is that of half a tick of free fall, which Bullet takes away in the middle of the tick.

@@ -18,14 +18,15 @@ std::vector<float> coarse_map(const OccupancyGrid& grid) {
   const auto cell_of = [](std::int32_t i, std::int32_t n, std::size_t count) {
     return static_cast<std::size_t>(i) * count / static_cast<std::size_t>(n);
   };
+  std::vector<std::size_t> column_of;
+  for (std::int32_t x = 0; x < size[0]; ++x) column_of.push_back(cell_of(x, size[0], cells_x));
   std::size_t v = 0;
   for (std::int32_t z = 0; z < size[2]; ++z) {
     for (std::int32_t y = 0; y < size[1]; ++y) {
       const std::size_t row =
           (cell_of(z, size[2], cells_z) * cells_y + cell_of(y, size[1], cells_y)) * cells_x;
-      for (std::int32_t x = 0; x < size[0]; ++x, ++v) {
-        const auto state = static_cast<std::size_t>(state_of(words[v]));
-        shares[state * cells + row + cell_of(x, size[0], cells_x)] += 1.0F;
+      for (const std::size_t column : column_of) {
+        shares[static_cast<std::size_t>(state_of(words[v++])) * cells + row + column] += 1.0F;
       }
     }
   }
