@@ -87,7 +87,7 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         scenario by key; `seeds`: episodes are missions of so many seeds, 0 to seeds - 1, whose
         profiles are kept; 0: of any. Raises gnbv.BadInput."""
         self.render_mode = render_mode
-        self._made = {
+        self._made: dict[str, Any] = {
             "scenario": scenario,
             "action": action,
             "goal": goal,
