@@ -46,6 +46,7 @@ class MissionObserver {
 /// A mission at a pause; nothing in it changes. Memory: that of its belief.
 struct MissionMoment;
 using KeptMoment = std::shared_ptr<const MissionMoment>;
+const Belief& belief_of(const MissionMoment& moment);
 
 /// Where a mission can be kept: after its profile, and before each decision until that is made,
 /// also from another thread while the mission waits for a view from outside.

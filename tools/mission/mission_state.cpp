@@ -76,6 +76,8 @@ MissionMoment::MissionMoment(const MissionMoment& other, std::uint64_t seed)
       corners(other.corners),
       is_homing(other.is_homing) {}
 
+const Belief& belief_of(const MissionMoment& moment) { return moment.out.belief; }
+
 bool profile_reads_seed(const Scenario& scenario) {
   const bool is_quadrotor = scenario.vehicle.kind == VehicleKind::quadrotor;
   return !scenario.start.jitter_m.isZero(0.0) || scenario.start.jitter_yaw_rad != 0.0 ||

@@ -64,11 +64,10 @@ void Permits::give() {
 }
 
 EnvMission::EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
-                       bool with_candidates, bool with_top)
+                       const EnvWishes& wishes)
     : stage_(std::move(stage)),
       permits_(std::move(permits)),
-      with_candidates_(with_candidates),
-      with_top_(with_top),
+      wishes_(wishes),
       observer_(stage_->scenario.planner, planner_model(stage_->scenario), stage_->scales),
       process_(getpid()) {}
 
@@ -171,11 +170,13 @@ void EnvMission::observe(const Belief& belief) {
   if (state_.views <= 1) state_.first_entropy_nat = belief.grid.total_entropy_nat();
   state_.entropy_nat = belief.grid.total_entropy_nat();
   state_.cloud_points = belief.cloud.points_world_m().size();
-  if (with_top_) {
+  if (wishes_.top) {
     state_.grid = belief.grid.geometry();
     state_.top = top_view(belief.grid);
   }
-  state_.seen = observer_.observe(belief, state_.pose, state_.first_entropy_nat, with_candidates_);
+  state_.seen =
+      observer_.observe(belief, state_.pose, state_.first_entropy_nat, wishes_.candidates);
+  if (wishes_.crop > 0) state_.crop = local_crop(belief, state_.pose.p_world_m, wishes_.crop);
 }
 
 /// The mission's turn ends here, and begins again with the agent's view.

@@ -16,6 +16,7 @@
 #include "bench/score/surface_reference.hpp"
 #include "tools/mission/mission.hpp"
 #include "tools/python/env_observation.hpp"
+#include "tools/python/frame_arrays.hpp"
 
 namespace gnbv {
 
@@ -64,6 +65,15 @@ class Permits {
   int left_;
 };
 
+/// What an agent is shown beside the coarse map.
+struct EnvWishes {
+  bool candidates = false;
+  bool top = false;  // top_view(), for pictures
+  bool frames = false;
+  bool colour = false;  // in them
+  int crop = 0;         // edge of local_crop() in voxels; 0: none
+};
+
 struct EnvState {
   bool ended = false;
   GridGeometry grid;        // of `top`
@@ -79,6 +89,8 @@ struct EnvState {
   double first_entropy_nat = 0.0;  // after the first of them
   ViewPose pose;
   EnvObservation seen;
+  std::vector<float> crop;
+  std::shared_ptr<const KeptView> frames;       // of the latest view
   std::shared_ptr<const MissionResult> result;  // when it has ended
 };
 
@@ -96,7 +108,7 @@ constexpr double kSlice_s = 0.05;
 class EnvMission final : public MissionObserver {
  public:
   EnvMission(std::shared_ptr<const EnvStage> stage, std::shared_ptr<Permits> permits,
-             bool with_candidates, bool with_top);
+             const EnvWishes& wishes);
   ~EnvMission() override;
   EnvMission(const EnvMission&) = delete;
   EnvMission& operator=(const EnvMission&) = delete;
@@ -118,6 +130,7 @@ class EnvMission final : public MissionObserver {
   /// Its state when it wants a view or is over; nothing while it flies on, after kSlice_s. Throws
   /// what the mission threw.
   const EnvState* wait();
+  const EnvStage& stage() const { return *stage_; }
   /// Tells the mission to end; whether it has, false after kSlice_s.
   bool close();
 
@@ -129,12 +142,15 @@ class EnvMission final : public MissionObserver {
   void on_pause(const MissionPause& pause);
   std::optional<ViewPose> ask();
   void observe(const Belief& belief);
+  bool wants_colour() const override { return wishes_.colour; }
+  void on_sensed(const SensedView& view) override {
+    if (wishes_.frames) state_.frames = std::make_shared<const KeptView>(view);
+  }
   void on_view(const ViewRecord& view, const Belief& belief) override;
 
   std::shared_ptr<const EnvStage> stage_;
   std::shared_ptr<Permits> permits_;
-  bool with_candidates_;
-  bool with_top_;
+  const EnvWishes wishes_;
   EnvObserver observer_;
 
   std::mutex mutex_;

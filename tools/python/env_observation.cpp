@@ -59,6 +59,30 @@ std::vector<float> top_view(const OccupancyGrid& grid) {
   return out;
 }
 
+std::vector<float> local_crop(const Belief& belief, const Vec3& at_world_m, int edge) {
+  const OccupancyGrid& grid = belief.grid;
+  const GridGeometry& geometry = grid.geometry();
+  const Key center = geometry.key_of(at_world_m);
+  const auto cells = static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge) *
+                     static_cast<std::size_t>(edge);
+  std::vector<float> out(2 * cells);
+  std::size_t cell = 0;
+  for (std::int32_t z = 0; z < edge; ++z) {
+    for (std::int32_t y = 0; y < edge; ++y) {
+      for (std::int32_t x = 0; x < edge; ++x, ++cell) {
+        const Key key = {center[0] + x - edge / 2, center[1] + y - edge / 2,
+                         center[2] + z - edge / 2};
+        out[cell] = 0.5F;
+        if (!geometry.contains(key)) continue;
+        const VoxelIndex v = geometry.index_of(key);
+        out[cell] = 1.0F / (1.0F + std::exp(-grid.log_odds(v)));
+        out[cells + cell] = bounded(belief.cloud.density(v) / belief.cloud.density_max());
+      }
+    }
+  }
+  return out;
+}
+
 std::size_t EnvObserver::candidate_count() const {
   std::size_t count = 0;
   for (const double scale : scales_) {

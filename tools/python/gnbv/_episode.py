@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,9 +12,12 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from gnbv import _core, _picture
+from gnbv._frames import Frame
 from gnbv._mission import _yaml
+from gnbv._planner import Belief
 
 METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 4}
+OBSERVE = ("depth", "rgb", "crop", "poses")
 _OVER = ("coverage_reached", "collision", "off_course")
 Array = npt.NDArray[Any]
 Observation = dict[str, Array]
@@ -32,6 +35,8 @@ class Stage:
         threads: int,
         render_mode: str | None,
         seeds: int,
+        observe: Sequence[str] = (),
+        crop: int = 32,
     ) -> None:
         if action not in ("view", "candidate"):
             raise ValueError(f"action={action!r}: expected 'view' or 'candidate'")
@@ -40,7 +45,16 @@ class Stage:
         if seeds < 0:
             raise ValueError(f"seeds={seeds}: expected 0 or more")
         self.seeds = seeds or 2**31
-        self.made_by = (str(scenario), action, goal, repr(dict(set or {})), render_mode, seeds)
+        unknown = [name for name in observe if name not in OBSERVE]
+        if unknown or isinstance(observe, str):
+            raise ValueError(f"observe={observe!r}: expected some of {', '.join(OBSERVE)}")
+        if not 1 <= crop <= 256:
+            raise ValueError(f"crop={crop}: expected 1 to 256 voxels")
+        if "poses" in observe and action != "candidate":
+            raise ValueError("observe: poses are those of action='candidate'")
+        self.observe, self.crop = tuple(observe), crop
+        made_of = (repr(dict(set or {})), render_mode, seeds, self.observe, crop)
+        self.made_by = (str(scenario), action, goal, *made_of)
         self.draws = render_mode is not None
         overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
         self.core = _core.EnvStage(scenario, overrides, goal, seeds)
@@ -52,7 +66,15 @@ class Stage:
         self.gimbal = self.about.get("gimbal_rad")
 
     def mission(self) -> Any:
-        return _core.EnvMission(self.core, self.permits, self.is_candidate, self.draws)
+        sees = self.observe
+        wishes = _core.EnvWishes(
+            candidates=self.is_candidate,
+            top=self.draws,
+            frames="depth" in sees or "rgb" in sees,
+            colour="rgb" in sees,
+            crop=self.crop if "crop" in sees else 0,
+        )
+        return _core.EnvMission(self.core, self.permits, wishes)
 
     def action_space(self) -> spaces.Space[Any]:
         if self.is_candidate:
@@ -68,6 +90,17 @@ class Stage:
         if self.is_candidate:
             shape = (self.about["candidates"], self.about["features"])
             parts["candidates"] = spaces.Box(-1.0, 1.0, shape, np.float32)
+        if "poses" in self.observe:
+            shape = (self.about["candidates"], 6)
+            parts["candidate_poses"] = spaces.Box(-1.0, 1.0, shape, np.float32)
+        if "crop" in self.observe:
+            parts["crop"] = spaces.Box(0.0, 1.0, (2, *3 * (self.crop,)), np.float32)
+        for name, height, width, range_max_m in self.about["cameras"]:
+            if "depth" in self.observe:
+                box = spaces.Box(0.0, range_max_m, (height, width), np.float32)
+                parts[f"depth_{name}"] = box
+            if "rgb" in self.observe:
+                parts[f"rgb_{name}"] = spaces.Box(0, 255, (height, width, 3), np.uint8)
         return spaces.Dict(parts)
 
     def checked(self, actions: Any, *batch: int) -> Array:
@@ -114,7 +147,36 @@ class Stage:
         }
         if self.is_candidate:
             seen["candidates"] = state["candidates"].copy()
+        if "poses" in self.observe:
+            seen["candidate_poses"] = self._poses(state["views"])
+        if "crop" in self.observe:
+            seen["crop"] = state["crop"].reshape(2, *3 * (self.crop,)).copy()
+        if "depth" in self.observe or "rgb" in self.observe:
+            seen.update(self._images(state.get("frames", [])))
         return seen
+
+    def _poses(self, views: Array) -> Array:
+        """Of each candidate x, y, z of the navigation box, sine and cosine of its yaw, its pitch
+        as a share of a right angle; in [-1, 1]."""
+        place = 2.0 * (views[:, :3] - self.low) / (self.high - self.low) - 1.0
+        turned = [np.sin(views[:, 3]), np.cos(views[:, 3]), views[:, 4] / (np.pi / 2)]
+        poses: Array = np.column_stack([place, *turned])
+        return poses.clip(-1.0, 1.0).astype(np.float32)
+
+    def _images(self, frames: list[tuple[Any, ...]]) -> Observation:
+        """Of each camera; black where its frame was lost."""
+        found = {frame.camera: frame for frame in (Frame(*fields) for fields in frames)}
+        out: Observation = {}
+        for name, height, width, range_max_m in self.about["cameras"]:
+            frame = found.get(name)
+            if "depth" in self.observe:
+                depth_m = frame.depth_m if frame else np.zeros((height, width), np.float32)
+                depth_m = np.nan_to_num(depth_m, nan=0.0, posinf=range_max_m)
+                out[f"depth_{name}"] = np.clip(depth_m, 0.0, np.float32(range_max_m))
+            if "rgb" in self.observe:
+                rgb = frame.rgb if frame else None
+                out[f"rgb_{name}"] = np.zeros((height, width, 3), np.uint8) if rgb is None else rgb
+        return out
 
 
 @dataclass(frozen=True)
@@ -206,6 +268,12 @@ class Episode:
         if self.stage.is_candidate:
             info["action_mask"] = self.state["mask"].astype(np.int8)
         return info
+
+    def belief(self) -> Belief:
+        if self.lacks not in ("", "is over"):
+            raise RuntimeError(f"belief: the episode {self.lacks}; call reset()")
+        frames = self.state.get("frames")
+        return Belief(self.mission.belief(), None if frames is None else lambda: frames)
 
     def picture(self) -> Array | None:
         """None where no pictures are asked for."""

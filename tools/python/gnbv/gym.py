@@ -18,6 +18,19 @@ the logarithms of its free, unknown, occupied, predicted and thinly sampled voxe
 entropy, its density and the length of the way, 0 for those that may not be taken. All of it is
 belief.
 
+With `observe`, some of "depth", "rgb", "crop", "poses", also: "depth_NAME" (H, W) of each camera, m
+along the optical axis, 0 nearer than it measures and its range where nothing returns; "rgb_NAME"
+(H, W, 3), sRGB; "crop" (2, `crop`, `crop`, `crop`), the map's own voxels (z, y, x) around the
+vehicle: the probability of occupied, 0.5 unmeasured and outside, and the density of the cloud's
+points, a share of the most; "candidate_poses": x, y, z of the navigation box, sine and cosine of
+the yaw, pitch / (pi / 2). `env.belief` is all that is believed, as a planner of gnbv.run gets it.
+
+State: `clone_state()` and `restore_state(state)` go back to any step, exactly, as do
+copy.deepcopy(env) and pickle: the former by a copy of the mission, the latter by flying its actions
+again. With `seeds=N` episodes are of seeds 0 to N - 1, and the profile of each is flown once: steps
+are then several times as fast. The profile of a scenario whose seed changes nothing of it is kept
+anyway.
+
 Reward: the coverage gained, in shares of the ceiling (of what can be reached at all): the truth, as
 a benchmark knows it. The ceiling is searched when a scenario is first made (up to minutes; the
 cache keeps it); with goal=0 nobody needs it, and rewards are shares of the whole surface. An
@@ -53,6 +66,7 @@ if int(gymnasium.__version__.split(".")[0]) < 1:
 import numpy as np
 
 from gnbv._episode import METADATA, Array, Episode, Observation, Stage, State
+from gnbv._planner import Belief
 
 SCENARIOS = {
     "Aircraft": "aircraft",
@@ -82,10 +96,13 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         set: Mapping[str, Any] | None = None,
         render_mode: str | None = None,
         seeds: int = 0,
+        observe: Sequence[str] = (),
+        crop: int = 32,
     ) -> None:
         """`goal`: share of the ceiling at which an episode ends, 0: never; `set`: values of the
         scenario by key; `seeds`: episodes are missions of so many seeds, 0 to seeds - 1, whose
-        profiles are kept; 0: of any. Raises gnbv.BadInput."""
+        profiles are kept; 0: of any; `observe`, `crop`: what more is observed, and the crop's edge
+        in voxels. Raises gnbv.BadInput."""
         self.render_mode = render_mode
         self._made: dict[str, Any] = {
             "scenario": scenario,
@@ -95,6 +112,8 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
             "threads": 1,
             "render_mode": render_mode,
             "seeds": seeds,
+            "observe": tuple(observe),
+            "crop": crop,
         }
         self._stage = Stage(**self._made)
         self._episode = Episode(self._stage)
@@ -118,6 +137,11 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
 
     def render(self) -> Any:
         return self._episode.picture()
+
+    @property
+    def belief(self) -> Belief:
+        """What is believed now: gnbv.Belief, a copy that stays as it is."""
+        return self._episode.belief()
 
     def action_masks(self) -> Array:
         """As info["action_mask"], under the name that sb3-contrib asks for."""
@@ -185,10 +209,12 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         threads: int = 0,
         render_mode: str | None = None,
         seeds: int = 0,
+        observe: Sequence[str] = (),
+        crop: int = 32,
     ) -> None:
         self.num_envs = num_envs
         self.render_mode = render_mode
-        self._stage = Stage(scenario, action, goal, set, threads, render_mode, seeds)
+        self._stage = Stage(scenario, action, goal, set, threads, render_mode, seeds, observe, crop)
         self._episodes = [Episode(self._stage) for _ in range(num_envs)]
         self._over = np.zeros(num_envs, dtype=bool)
         self._randoms: list[np.random.Generator] = []
