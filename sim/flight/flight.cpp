@@ -44,6 +44,7 @@ class IdealFlight final : public Flight {
     check();
   }
 
+  std::unique_ptr<Flight> clone() const override { return std::make_unique<IdealFlight>(*this); }
   std::int64_t tick() const override { return tick_; }
   bool has_collided() const override { return false; }
   void command(const Setpoint& setpoint) override {

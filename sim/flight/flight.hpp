@@ -42,6 +42,9 @@ struct VehicleState {
 class Flight {
  public:
   virtual ~Flight() = default;
+  /// Another one in the same state, which flies on as this one would, bit by bit. Throws
+  /// std::runtime_error for a vehicle that touches something.
+  virtual std::unique_ptr<Flight> clone() const = 0;
   /// Ticks since the start.
   virtual std::int64_t tick() const = 0;
   /// The truth.

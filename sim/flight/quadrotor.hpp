@@ -14,6 +14,7 @@ class Quadrotor final : public Flight {
   Quadrotor(const VehicleConfig& config, const World& world, const ViewPose& start,
             std::uint64_t seed, Px4::Start how, const WindConfig& wind = {});
 
+  std::unique_ptr<Flight> clone() const override { return std::make_unique<Quadrotor>(*this); }
   std::int64_t tick() const override { return px4_.tick(); }
   VehicleState state() const override { return vehicle_.state(); }
   VehicleState estimate() const override { return estimate_; }

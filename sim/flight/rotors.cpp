@@ -101,12 +101,14 @@ class Desaturation {
   }
 
   void along(const RotorValues& direction, double max) {
+    if (!is_saturated(max)) return;  // both gains are 0
     add(gain(direction, max), direction);
     // what cannot be freed is shared: half of what is left is moved to the other end
     add(0.5 * gain(direction, max), direction);
   }
 
   void thrust_down(const RotorValues& thrust) {
+    if (!is_saturated(1.0)) return;
     RotorValues less{};
     for (std::size_t i = 0; i < rotors_; ++i) less[i] = -thrust[i];
     if (gain(less, 1.0) >= 0.0) along(less, 1.0);
@@ -121,6 +123,14 @@ class Desaturation {
   RotorCommands commands{};
 
  private:
+  bool is_saturated(double max) const {
+    bool is_outside = false;
+    for (std::size_t i = 0; i < rotors_; ++i) {
+      is_outside |= commands[i] < 0.0 || commands[i] > max;
+    }
+    return is_outside;
+  }
+
   /// The step along `direction` that frees the rotors of saturation as far as it can: the sum of
   /// the farthest steps asked for either way.
   double gain(const RotorValues& direction, double max) const {
@@ -141,11 +151,14 @@ class Desaturation {
 
 }  // namespace
 
-double rotor_speed_after(const AirframeParameters& airframe, double speed_rad_s,
-                         double reference_rad_s, double dt_s) {
-  const double tau_s =
-      reference_rad_s > speed_rad_s ? airframe.time_constant_up_s : airframe.time_constant_down_s;
-  return reference_rad_s + (speed_rad_s - reference_rad_s) * std::exp(-dt_s / tau_s);
+RotorLag rotor_lag(const AirframeParameters& airframe, double step_s) {
+  return {std::exp(-step_s / airframe.time_constant_up_s),
+          std::exp(-step_s / airframe.time_constant_down_s)};
+}
+
+double rotor_speed_after(const RotorLag& lag, double speed_rad_s, double reference_rad_s) {
+  const double left = reference_rad_s > speed_rad_s ? lag.up : lag.down;
+  return reference_rad_s + (speed_rad_s - reference_rad_s) * left;
 }
 
 RotorSpeeds reference_speeds(const AirframeParameters& airframe, const RotorCommands& commands) {

@@ -9,9 +9,14 @@
 
 namespace gnbv {
 
-/// Speed after `dt_s` of a constant reference: first order, exact, slower down than up.
-double rotor_speed_after(const AirframeParameters& airframe, double speed_rad_s,
-                         double reference_rad_s, double dt_s);
+/// What is left of a rotor's distance to its reference after a step.
+struct RotorLag {
+  double up;
+  double down;
+};
+RotorLag rotor_lag(const AirframeParameters& airframe, double step_s);
+/// Speed after a step of a constant reference: first order, exact, slower down than up.
+double rotor_speed_after(const RotorLag& lag, double speed_rad_s, double reference_rad_s);
 
 /// References of armed rotors.
 RotorSpeeds reference_speeds(const AirframeParameters& airframe, const RotorCommands& commands);

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <new>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/core/error.hpp"
@@ -81,11 +83,34 @@ struct RigidVehicle::Scene {
                              0.5 * airframe.hull_height_m)) {
     world.setGravity(btVector3(0, 0, 0));
     world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
-    if (world_in.has_ground) add_static(&ground_shape);
+    has_ground = world_in.has_ground;
+    if (has_ground) add_static(&ground_shape);
     add_static(world_in.structure);
     add_static(world_in.obstacles);
     terrain_shape = add_static(world_in.terrain);
+    add_body(airframe, T_world_body);
+  }
+  /// With the same meshes.
+  Scene(const Scene& other, const AirframeParameters& airframe, const Isometry& T_world_body)
+      : meshes(other.meshes),
+        terrain_shape(other.terrain_shape),
+        has_ground(other.has_ground),
+        hull_shape(other.hull_shape) {
+    world.setGravity(btVector3(0, 0, 0));
+    world.setForceUpdateAllAabbs(false);
+    if (has_ground) add_static(&ground_shape);
+    for (const auto& mesh : meshes) add_static(*mesh);
+    add_body(airframe, T_world_body);
+  }
+  ~Scene() {
+    world.removeRigidBody(body.get());
+    for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
 
+  void add_body(const AirframeParameters& airframe, const Isometry& T_world_body) {
+    reach_of_hull_m = std::hypot(airframe.hull_radius_m, 0.5 * airframe.hull_height_m);
     btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
                                                   to_bullet(airframe.inertia_kg_m2));
     info.m_startWorldTransform = to_bullet(T_world_body);
@@ -95,13 +120,6 @@ struct RigidVehicle::Scene {
     body->setActivationState(DISABLE_DEACTIVATION);
     world.addRigidBody(body.get());
   }
-  ~Scene() {
-    world.removeRigidBody(body.get());
-    for (const auto& fixed : statics) world.removeRigidBody(fixed.get());
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
   void add_static(btCollisionShape* shape) {
     statics.push_back(std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, shape)));
@@ -110,14 +128,34 @@ struct RigidVehicle::Scene {
   /// The shape of a mesh that was added; none for one without faces.
   const btCollisionShape* add_static(const TriangleMesh& mesh) {
     if (mesh.faces.empty()) return nullptr;
-    meshes.push_back(std::make_unique<StaticMesh>(mesh));
-    add_static(meshes.back()->shape.get());
+    meshes.push_back(std::make_shared<StaticMesh>(mesh));
+    add_static(*meshes.back());
     return meshes.back()->shape.get();
+  }
+  void add_static(const StaticMesh& mesh) {
+    add_static(mesh.shape.get());
+    auto& [low_m, high_m] = boxes_m.emplace_back();
+    mesh.shape->getAabb(btTransform::getIdentity(), low_m, high_m);
+  }
+
+  /// Whether the hull could come near anything that stands there within a tick.
+  bool is_near_something(const btVector3& v_m_s) const {
+    constexpr double kMargin_m = 0.1;  // above Bullet's margin of shapes and threshold of contacts
+    const btVector3 center_m = body->getWorldTransform().getOrigin();
+    const double reach_m = reach_of_hull_m + kTick_s * v_m_s.length() + kMargin_m;
+    const btVector3 reach(reach_m, reach_m, reach_m);
+    if (has_ground && center_m.z() <= reach_m) return true;
+    return std::ranges::any_of(boxes_m, [&](const auto& box) {
+      return TestAabbAgainstAabb2(center_m - reach, center_m + reach, box[0], box[1]);
+    });
   }
 
   // Bullet keeps pointers: declared in order of need, so destroyed in reverse.
-  std::vector<std::unique_ptr<StaticMesh>> meshes;
+  std::vector<std::shared_ptr<StaticMesh>> meshes;
   const btCollisionShape* terrain_shape = nullptr;
+  bool has_ground = false;
+  double reach_of_hull_m = 0.0;
+  std::vector<std::array<btVector3, 2>> boxes_m;  // of the meshes
   btStaticPlaneShape ground_shape{btVector3(0, 0, 1), 0.0};
   btCylinderShapeZ hull_shape;
   btDefaultCollisionConfiguration configuration{settings_of_bullet()};
@@ -132,6 +170,7 @@ struct RigidVehicle::Scene {
 RigidVehicle::RigidVehicle(const AirframeParameters& airframe, const World& world,
                            const VehicleState& start, const RotorSpeeds& start_rad_s)
     : airframe_(airframe),
+      lag_(rotor_lag(airframe, kRateStep_s)),
       state_(start),
       v_world_m_s_(start.v_world_m_s),
       speeds_rad_s_(start_rad_s) {
@@ -139,6 +178,25 @@ RigidVehicle::RigidVehicle(const AirframeParameters& airframe, const World& worl
   const Eigen::Matrix3d R = state_.T_world_body.linear();
   angular_momentum_world_n_m_s_ = R * airframe_.inertia_kg_m2.cwiseProduct(state_.omega_body_rad_s);
   scene_ = std::make_unique<Scene>(airframe, world, start.T_world_body);
+}
+
+RigidVehicle::RigidVehicle(const RigidVehicle& other)
+    : airframe_(other.airframe_),
+      lag_(other.lag_),
+      state_(other.state_),
+      v_world_m_s_(other.v_world_m_s_),
+      angular_momentum_world_n_m_s_(other.angular_momentum_world_n_m_s_),
+      speeds_rad_s_(other.speeds_rad_s_),
+      thrust_n_(other.thrust_n_),
+      has_touched_structure_(other.has_touched_structure_),
+      has_touched_ground_(other.has_touched_ground_) {
+  btCollisionDispatcher& dispatcher = other.scene_->dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    if (dispatcher.getManifoldByIndexInternal(i)->getNumContacts() > 0) {
+      throw std::runtime_error("a vehicle that touches something cannot be copied");
+    }
+  }
+  scene_ = std::make_unique<Scene>(*other.scene_, airframe_, state_.T_world_body);
 }
 
 RigidVehicle::~RigidVehicle() = default;
@@ -170,8 +228,7 @@ Wrench RigidVehicle::turn_rotors(const RateControl& control, const Vec3& wind_wo
     omega += kRateStep_s *
              (wrench.torque_body_n_m - omega.cross(L_body)).cwiseQuotient(airframe_.inertia_kg_m2);
     for (std::size_t i = 0; i < airframe_.rotors.size(); ++i) {
-      speeds_rad_s_[i] =
-          rotor_speed_after(airframe_, speeds_rad_s_[i], reference_rad_s[i], kRateStep_s);
+      speeds_rad_s_[i] = rotor_speed_after(lag_, speeds_rad_s_[i], reference_rad_s[i]);
     }
   }
   return mean;
@@ -215,19 +272,26 @@ void RigidVehicle::step(const RateControl& control, const Vec3& wind_world_m_s) 
   btRigidBody& body = *scene_->body;
   body.setLinearVelocity(to_bullet(v_mid_world));
   body.setAngularVelocity(to_bullet(omega_mid_world));
-  scene_->world.stepSimulation(kTick_s, 0);
+  const bool is_near = scene_->is_near_something(body.getLinearVelocity());
+  if (is_near) {
+    scene_->world.stepSimulation(kTick_s, 0);
+  } else {  // the same motion, without a search for contacts
+    btTransform after;
+    body.predictIntegratedTransform(kTick_s, after);
+    body.proceedToTransform(after);
+  }
 
   state_.T_world_body = from_bullet(body.getWorldTransform());
   Vec3 v_world = v_mid_world;
   angular_momentum_world_n_m_s_ += kTick_s * torque_world;
-  if (scene_->dispatcher.getNumManifolds() > 0) {  // what the contacts changed
+  if (is_near && scene_->dispatcher.getNumManifolds() > 0) {  // what the contacts changed
     v_world = from_bullet(body.getLinearVelocity());
     const Vec3 d_omega_world = from_bullet(body.getAngularVelocity()) - omega_mid_world;
     angular_momentum_world_n_m_s_ +=
         R0 * airframe_.inertia_kg_m2.cwiseProduct(R0.transpose() * d_omega_world);
   }
   v_world_m_s_ = v_world + 0.5 * kTick_s * a_world;
-  state_.v_world_m_s = feel_contacts(v_world_m_s_);
+  state_.v_world_m_s = is_near ? feel_contacts(v_world_m_s_) : v_world_m_s_;
   const Eigen::Matrix3d R1 = state_.T_world_body.linear();
   state_.omega_body_rad_s = R1.transpose() * omega_world(R1, angular_momentum_world_n_m_s_);
   thrust_n_ = wrench.thrust_n;

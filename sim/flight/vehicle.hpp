@@ -14,6 +14,9 @@ class RigidVehicle {
   /// The world is copied into the collision scene. Throws BrokenInvariant on a NaN in `start`.
   RigidVehicle(const AirframeParameters& airframe, const World& world, const VehicleState& start,
                const RotorSpeeds& start_rad_s);
+  /// Shares what stands still. Throws std::runtime_error where the hull touches something: what
+  /// Bullet remembers of a contact cannot be copied.
+  RigidVehicle(const RigidVehicle& other);
   ~RigidVehicle();
 
   /// Rotor references (0 = disarmed) for a body rate, in body axes.
@@ -47,6 +50,7 @@ class RigidVehicle {
   void check() const;
 
   AirframeParameters airframe_;
+  RotorLag lag_;
   VehicleState state_;
   // The momenta, kept so that rounding alone can change them. At rest on the ground the velocity
   // here is that of half a tick of free fall, which Bullet takes away in the middle of the tick.

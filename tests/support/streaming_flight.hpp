@@ -14,6 +14,11 @@ class StreamingFlight : public Flight {
  public:
   explicit StreamingFlight(std::unique_ptr<Flight> flight) : flight_(std::move(flight)) {}
 
+  std::unique_ptr<Flight> clone() const override {
+    auto copy = std::make_unique<StreamingFlight>(flight_->clone());
+    copy->setpoint_ = setpoint_;
+    return copy;
+  }
   std::int64_t tick() const override { return flight_->tick(); }
   VehicleState state() const override { return flight_->state(); }
   VehicleState estimate() const override { return flight_->estimate(); }

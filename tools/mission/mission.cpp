@@ -60,8 +60,8 @@ std::optional<Termination> take_off(Mission& m) {
   if (!m.scenario.start.on_ground) return std::nullopt;
   const ScopeTimer timer(m.out.wall.fly_s);
   m.out.distance.transfer_m += (m.out.start.p_world_m - m.last_p_world_m).norm();
-  const auto over = fly_leg(m, m.out.start, m.scenario.guidance.path_speed_m_s,
-                            looks_on_the_way(m, m.out.start));
+  const auto over =
+      fly_leg(m, m.out.start, m.scenario.guidance.path_speed_m_s, looks_on_the_way(m, m.out.start));
   m.flight->leave_ground();
   return over;
 }
@@ -138,6 +138,13 @@ void record(Mission& m, const Decision& decision) {
   m.corners.clear();
 }
 
+void pause(const Mission& m) {
+  if (!m.inputs.on_pause) return;
+  m.inputs.on_pause({.views = m.out.views.size(), .keep = [&m] {
+                       return std::make_shared<const MissionMoment>(m, m.scenario.seed);
+                     }});
+}
+
 std::optional<Termination> termination(const Mission& m) {
   if (m.inputs.is_covered(m.out.belief)) return Termination::coverage_reached;
   if (const auto end =
@@ -146,6 +153,14 @@ std::optional<Termination> termination(const Mission& m) {
   }
   if (should_stop(m)) return Termination::interrupted;
   return std::nullopt;
+}
+
+/// Flies there, looks, and believes what was seen.
+std::optional<Termination> take_view(Mission& m, const Decision& view) {
+  if (const auto over = fly_to_view(m, view)) return over;
+  integrate(m, sense(m));
+  record(m, view);
+  return termination(m);
 }
 
 /// Keeps what the files tell of a plan, but its views, which are told when they are flown.
@@ -202,15 +217,25 @@ MissionResult finish(Mission& m, Termination reason) {
 
 MissionResult run_mission(const Scenario& scenario, const World& world, const RayScene& scene,
                           const MissionInputs& inputs, int threads) {
-  Mission m(scenario, world, scene, inputs, threads);
-  if (const auto over = take_off(m)) return finish(m, *over);
-  if (const auto over = fly_profile(m)) return finish(m, *over);
-  Decision view = {.view = m.out.start};
+  const auto made = inputs.from
+                        ? std::make_unique<Mission>(*inputs.from, scenario, scene, inputs, threads)
+                        : std::make_unique<Mission>(scenario, world, scene, inputs, threads);
+  Mission& m = *made;
+  if (!inputs.from) {
+    if (const auto over = take_off(m)) return finish(m, *over);
+    if (const auto over = fly_profile(m)) return finish(m, *over);
+    pause(m);
+  }
+  std::optional<Decision> view;
+  if (m.out.views.empty()) {
+    m.planner->begin(m.out.belief, m.out.start);
+    view = Decision{.view = m.out.start};
+  }
   while (true) {
-    if (const auto over = fly_to_view(m, view)) return finish(m, *over);
-    integrate(m, sense(m));
-    record(m, view);
-    if (const auto over = termination(m)) return finish(m, *over);
+    if (view) {
+      if (const auto over = take_view(m, *view)) return finish(m, *over);
+    }
+    pause(m);
     try {
       auto next = next_decision(scenario.planner.termination, m.current, m.history,
                                 [&] { return make_plan(m); });
@@ -222,7 +247,7 @@ MissionResult run_mission(const Scenario& scenario, const World& world, const Ra
       m.out.failure = failed.what();
       return finish(m, Termination::utility_failed);
     }
-    if (!can_afford(m, view)) return finish(m, Termination::battery);
+    if (!can_afford(m, *view)) return finish(m, Termination::battery);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,6 +43,19 @@ class MissionObserver {
   virtual void on_replayed(std::size_t /*iteration*/, const Plan&) {}
 };
 
+/// A mission at a pause; nothing in it changes. Memory: that of its belief.
+struct MissionMoment;
+using KeptMoment = std::shared_ptr<const MissionMoment>;
+const Belief& belief_of(const MissionMoment& moment);
+
+/// Where a mission can be kept: after its profile, and before each decision until that is made,
+/// also from another thread while the mission waits for a view from outside.
+struct MissionPause {
+  std::size_t views = 0;  // taken so far
+  std::function<KeptMoment()>
+      keep;  // throws std::runtime_error where the vehicle touches something
+};
+
 /// What a mission is given beside scenario and world.
 struct MissionInputs {
   std::vector<MissionObserver*> observers = {};  // told in this order; they stay with the caller
@@ -51,6 +65,11 @@ struct MissionInputs {
   /// Asked after each view, of the truth: whether a benchmark has seen enough of the structure.
   std::function<bool(const Belief&)> is_covered = [](const Belief&) { return false; };
   std::vector<Decision> replay = {};  // of an interrupted run: flown again, not planned again
+  /// Flies on from there instead of from the start, bit by bit as the kept mission would have; of
+  /// the same scenario, which after a profile may have another seed unless profile_reads_seed().
+  /// After more than that the planner has to be one that takes views.
+  KeptMoment from = {};
+  std::function<void(const MissionPause&)> on_pause = {};
   /// What comes to the planner from outside. A utility of the user's own is started when first
   /// asked, unless it is here.
   PlannerSources sources = {};
@@ -59,6 +78,9 @@ struct MissionInputs {
 std::vector<CameraModel> camera_models(const Scenario& scenario);
 /// What the planner of this scenario knows.
 PlannerModel planner_model(const Scenario& scenario);
+
+/// Whether anything up to the first view depends on the scenario's seed.
+bool profile_reads_seed(const Scenario& scenario);
 
 /// Runs the mission. The result is the same at any number of threads, replayed or not. The mission
 /// of a planner that knows the structure needs its route.

@@ -28,6 +28,11 @@ bool has_time_to_go_on(const Mission& m) {
 /// A leg can take minutes. The way home is flown to its end.
 bool stops_on_the_way(const Mission& m) { return !m.is_homing && should_stop(m); }
 
+PlannerModel of_seed(PlannerModel model, std::uint64_t seed) {
+  model.seed = seed;
+  return model;
+}
+
 }  // namespace
 
 std::vector<CameraModel> camera_models(const Scenario& scenario) {
@@ -46,20 +51,65 @@ PlannerModel planner_model(const Scenario& scenario) {
   return model;
 }
 
-Mission::Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
-                 const MissionInputs& mission_inputs, int threads)
-    : scenario(mission_scenario),
-      scene(ray_scene),
-      inputs(mission_inputs),
-      model(planner_model(scenario)),
-      scratch(model, threads),
+MissionMoment::MissionMoment(const Scenario& scenario, const World& world, const RayScene& scene)
+    : model(planner_model(scenario)),
       out(start_pose(scenario, scene), model),
       flight(make_flight(scenario.vehicle, world, out.start, scenario.seed, scenario.wind,
                          scenario.start.on_ground ? FlightStart::ground : FlightStart::air)),
       scanner(scene, model.lidars, scenario.seed, scenario.planner.profiling.flight_rate_hz),
       current(out.start),
       last_p_world_m(flight->state().T_world_body.translation()),
-      gimbal_pitch_rad(out.start.gimbal_pitch_rad) {
+      gimbal_pitch_rad(out.start.gimbal_pitch_rad) {}
+
+MissionMoment::MissionMoment(const MissionMoment& other, std::uint64_t seed)
+    : model(of_seed(other.model, seed)),
+      out(other.out),
+      flight(other.flight->clone()),
+      scanner(other.scanner, model.lidars, seed),
+      history(other.history),
+      current(other.current),
+      last_p_world_m(other.last_p_world_m),
+      gimbal_pitch_rad(other.gimbal_pitch_rad),
+      flown_m(other.flown_m),
+      path(other.path),
+      path_at(other.path_at),
+      exits(other.exits),
+      corners(other.corners),
+      is_homing(other.is_homing) {}
+
+const Belief& belief_of(const MissionMoment& moment) { return moment.out.belief; }
+
+bool profile_reads_seed(const Scenario& scenario) {
+  const bool is_quadrotor = scenario.vehicle.kind == VehicleKind::quadrotor;
+  return scenario.start.on_ground || !scenario.start.jitter_m.isZero(0.0) ||
+         scenario.start.jitter_yaw_rad != 0.0 ||
+         std::ranges::any_of(scenario.lidars,
+                             [](const LidarConfig& lidar) { return lidar.range_sigma_m != 0.0; }) ||
+         (is_quadrotor && (scenario.wind.gust_w20_m_s != 0.0 ||
+                           scenario.vehicle.estimate.model != EstimateModel::none));
+}
+
+Mission::Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
+                 const MissionInputs& mission_inputs, int threads)
+    : MissionMoment(mission_scenario, world, ray_scene),
+      scenario(mission_scenario),
+      scene(ray_scene),
+      inputs(mission_inputs),
+      scratch(model, threads) {
+  ready_planner();
+}
+
+Mission::Mission(const MissionMoment& from, const Scenario& mission_scenario,
+                 const RayScene& ray_scene, const MissionInputs& mission_inputs, int threads)
+    : MissionMoment(from, mission_scenario.seed),
+      scenario(mission_scenario),
+      scene(ray_scene),
+      inputs(mission_inputs),
+      scratch(model, threads) {
+  ready_planner();
+}
+
+void Mission::ready_planner() {
   PlannerSources sources = inputs.sources;
   if (!sources.user_scores) sources.user_scores = lazy_user_utility(scenario.planner.utility);
   planner = make_planner(scenario.planner, model, std::move(sources));

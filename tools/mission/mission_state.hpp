@@ -24,23 +24,18 @@ struct Exit {
   double way_wh = 0.0;            // what the way takes in still air
 };
 
-/// All that changes while the mission runs, beside what never does.
-struct Mission {
-  Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
-          const MissionInputs& mission_inputs, int threads);
+/// All that a mission is at a pause: what a copy of it flies on from.
+struct MissionMoment {
+  MissionMoment(const Scenario& scenario, const World& world, const RayScene& scene);
+  /// A copy, for a mission of that seed.
+  MissionMoment(const MissionMoment& other, std::uint64_t seed);
+  MissionMoment(const MissionMoment& other) : MissionMoment(other, other.model.seed) {}
 
-  const Scenario& scenario;
-  const RayScene& scene;
-  const MissionInputs& inputs;
   const PlannerModel model;
-
-  Scratch scratch;
-
   MissionResult out;
   std::unique_ptr<Flight> flight;
   ProfileScanner scanner;  // of sweeps between views
   History history;
-  std::unique_ptr<Planner> planner;
   ViewPose current;               // where the planner believes to be
   Vec3 last_p_world_m;            // truth, one tick ago
   double gimbal_pitch_rad = 0.0;  // where it is
@@ -50,7 +45,25 @@ struct Mission {
   std::vector<Exit> exits;        // none: home leads over the top
   std::vector<Exit> corners;      // of the way to the next view, ends included
   bool is_homing = false;         // on the last way, with energy for it
-  WallTimes view_wall;            // of the view at hand
+};
+
+/// A mission under way.
+struct Mission : MissionMoment {
+  Mission(const Scenario& mission_scenario, const World& world, const RayScene& ray_scene,
+          const MissionInputs& mission_inputs, int threads);
+  /// One that flies on from there.
+  Mission(const MissionMoment& from, const Scenario& mission_scenario, const RayScene& ray_scene,
+          const MissionInputs& mission_inputs, int threads);
+
+  const Scenario& scenario;
+  const RayScene& scene;
+  const MissionInputs& inputs;
+  Scratch scratch;
+  std::unique_ptr<Planner> planner;
+  WallTimes view_wall;  // of the view at hand
+
+ private:
+  void ready_planner();
 };
 
 double time_s(const Flight& flight);

@@ -120,7 +120,6 @@ std::optional<Termination> fly_profile(Mission& m) {
   if (should_stop(m)) return Termination::interrupted;
   predict(m);
   if (const auto over = fly_to_first_view(m, flown)) return over;
-  m.planner->begin(m.out.belief, m.out.start);
   remember_start(m.out.belief, m.history);
   return std::nullopt;
 }

@@ -35,6 +35,14 @@ class ProfileScanner {
   ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars, std::uint64_t seed,
                  std::optional<double> rate_hz = std::nullopt);
 
+  /// In the state of another one, of the same LIDARs, which lie elsewhere now.
+  ProfileScanner(const ProfileScanner& other, std::span<const LidarModel> lidars,
+                 std::uint64_t seed)
+      : ProfileScanner(other) {
+    lidars_ = lidars;
+    seed_ = seed;
+  }
+
   /// After every tick. Sweeps that are due begin only while `is_on`; those begun are finished.
   void tick(const Flight& flight, bool is_on);
 

@@ -20,6 +20,8 @@ struct UserPlanner {
   std::function<std::optional<ViewPose>(const Belief&)> plan;
   /// A view was taken.
   std::function<void(const ViewRecord&)> on_view = [](const ViewRecord&) {};
+  /// What the cameras saw at a view, before it is believed.
+  std::function<void(const SensedView&)> on_sensed = [](const SensedView&) {};
   /// The view that was planned last cannot be flown; plan() is asked again.
   std::function<void(Rejection)> on_refused = [](Rejection) {};
 };
@@ -36,6 +38,7 @@ class UserPlannerLink final : public MissionObserver {
   /// planner itself; of one that is to be resumed as it was given.
   Scenario repeatable(Termination reason) const;
 
+  void on_sensed(const SensedView& view) override { planner_.on_sensed(view); }
   void on_view(const ViewRecord& view, const Belief& belief) override;
 
  private:

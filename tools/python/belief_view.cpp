@@ -34,6 +34,16 @@ class Question {
 BeliefView::BeliefView(const Belief& belief, AskedTools& tools, const ViewPose& current)
     : belief_(&belief), tools_(&tools), current_(current), lease_(nb::capsule(this)) {}
 
+BeliefView::BeliefView(std::shared_ptr<const Belief> belief, std::shared_ptr<AskedTools> tools,
+                       const ViewPose& current)
+    : belief_(belief.get()),
+      tools_(tools.get()),
+      current_(current),
+      kept_tools_(std::move(tools)),
+      lease_(nb::capsule(
+          new std::shared_ptr<const Belief>(std::move(belief)),
+          [](void* p) noexcept { delete static_cast<std::shared_ptr<const Belief>*>(p); })) {}
+
 void BeliefView::end() {
   const std::lock_guard lock(tools().is_asked);
   belief_ = nullptr;

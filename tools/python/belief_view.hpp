@@ -3,6 +3,7 @@
 // (tools/check_layers): no truth is in reach.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct AskedTools : BeliefTools {
 class BeliefView {
  public:
   BeliefView(const Belief& belief, AskedTools& tools, const ViewPose& current);
+  /// Of a belief that never changes, which the view and its arrays keep.
+  BeliefView(std::shared_ptr<const Belief> belief, std::shared_ptr<AskedTools> tools,
+             const ViewPose& current);
   /// What was handed over is used no more; waits for what other threads still ask.
   void end();
 
@@ -65,6 +69,7 @@ class BeliefView {
   const Belief* belief_;  // none after end()
   AskedTools* tools_;
   ViewPose current_;
+  std::shared_ptr<AskedTools> kept_tools_;
   nb::object lease_;  // what the shared arrays keep alive
 };
 

@@ -10,6 +10,7 @@
 #include "tools/python/arrays.hpp"
 #include "tools/python/belief_view.hpp"
 #include "tools/python/bindings.hpp"
+#include "tools/python/frame_arrays.hpp"
 #include "tools/run/cloud_file.hpp"
 
 namespace {
@@ -72,6 +73,7 @@ NB_MODULE(_core, m) {
   gnbv::bind_belief(m);
   gnbv::bind_run(m);
   gnbv::bind_env(m);
+  gnbv::bind_frames(m);
   m.def("read_map", &read_map, nb::arg("path"),
         nb::sig("def read_map(path: str) -> numpy.typing.NDArray[numpy.float64]"));
   m.def("read_cloud", &read_cloud, nb::arg("path"),

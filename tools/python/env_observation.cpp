@@ -18,14 +18,15 @@ std::vector<float> coarse_map(const OccupancyGrid& grid) {
   const auto cell_of = [](std::int32_t i, std::int32_t n, std::size_t count) {
     return static_cast<std::size_t>(i) * count / static_cast<std::size_t>(n);
   };
+  std::vector<std::size_t> column_of;
+  for (std::int32_t x = 0; x < size[0]; ++x) column_of.push_back(cell_of(x, size[0], cells_x));
   std::size_t v = 0;
   for (std::int32_t z = 0; z < size[2]; ++z) {
     for (std::int32_t y = 0; y < size[1]; ++y) {
       const std::size_t row =
           (cell_of(z, size[2], cells_z) * cells_y + cell_of(y, size[1], cells_y)) * cells_x;
-      for (std::int32_t x = 0; x < size[0]; ++x, ++v) {
-        const auto state = static_cast<std::size_t>(state_of(words[v]));
-        shares[state * cells + row + cell_of(x, size[0], cells_x)] += 1.0F;
+      for (const std::size_t column : column_of) {
+        shares[static_cast<std::size_t>(state_of(words[v++])) * cells + row + column] += 1.0F;
       }
     }
   }
@@ -58,6 +59,30 @@ std::vector<float> top_view(const OccupancyGrid& grid) {
   return out;
 }
 
+std::vector<float> local_crop(const Belief& belief, const Vec3& at_world_m, int edge) {
+  const OccupancyGrid& grid = belief.grid;
+  const GridGeometry& geometry = grid.geometry();
+  const Key center = geometry.key_of(at_world_m);
+  const auto cells = static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge) *
+                     static_cast<std::size_t>(edge);
+  std::vector<float> out(2 * cells);
+  std::size_t cell = 0;
+  for (std::int32_t z = 0; z < edge; ++z) {
+    for (std::int32_t y = 0; y < edge; ++y) {
+      for (std::int32_t x = 0; x < edge; ++x, ++cell) {
+        const Key key = {center[0] + x - edge / 2, center[1] + y - edge / 2,
+                         center[2] + z - edge / 2};
+        out[cell] = 0.5F;
+        if (!geometry.contains(key)) continue;
+        const VoxelIndex v = geometry.index_of(key);
+        out[cell] = 1.0F / (1.0F + std::exp(-grid.log_odds(v)));
+        out[cells + cell] = bounded(belief.cloud.density(v) / belief.cloud.density_max());
+      }
+    }
+  }
+  return out;
+}
+
 std::size_t EnvObserver::candidate_count() const {
   std::size_t count = 0;
   for (const double scale : scales_) {
@@ -67,8 +92,7 @@ std::size_t EnvObserver::candidate_count() const {
 }
 
 EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& current,
-                                    std::size_t views, bool with_candidates) {
-  if (views <= 1) first_entropy_nat_ = belief.grid.total_entropy_nat();
+                                    double first_entropy_nat, bool with_candidates) {
   EnvObservation out{.map = coarse_map(belief.grid), .views = {}, .mask = {}, .candidates = {}};
   const Box3& box_m = model_.navigation_m;
   const Vec3 at = (current.p_world_m - box_m.min()).cwiseQuotient(box_m.sizes());
@@ -77,7 +101,7 @@ EnvObservation EnvObserver::observe(const Belief& belief, const ViewPose& curren
   }
   out.pose[3] = bounded(std::sin(current.yaw_rad));
   out.pose[4] = bounded(std::cos(current.yaw_rad));
-  out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat_, 1e-9));
+  out.entropy_left = bounded(belief.grid.total_entropy_nat() / std::max(first_entropy_nat, 1e-9));
   if (with_candidates) add_candidates(belief, current, out);
   return out;
 }

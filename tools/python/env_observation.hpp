@@ -30,13 +30,18 @@ struct EnvObservation {
 /// map's, -1 where there is none, and the share of the column that is unknown.
 std::vector<float> top_view(const OccupancyGrid& grid);
 
+/// 2 x edge x edge x edge (z, y, x), of the map's voxels around that point: the probability of
+/// occupied, 0.5 while unmeasured and outside of the map; the density of the cloud's points, as a
+/// share of a fully scanned plane's.
+std::vector<float> local_crop(const Belief& belief, const Vec3& at_world_m, int edge);
+
 class EnvObserver {
  public:
   EnvObserver(const PlannerConfig& config, const PlannerModel& model, std::vector<double> scales)
       : config_(config), model_(model), scales_(std::move(scales)), scratch_(model_, 1) {}
 
-  /// `views` is how many were taken.
-  EnvObservation observe(const Belief& belief, const ViewPose& current, std::size_t views,
+  /// `first_entropy_nat` is what there was after the first view.
+  EnvObservation observe(const Belief& belief, const ViewPose& current, double first_entropy_nat,
                          bool with_candidates);
   /// How many candidates there always are.
   std::size_t candidate_count() const;
@@ -49,7 +54,6 @@ class EnvObserver {
   const PlannerModel model_;
   std::vector<double> scales_;
   Scratch scratch_;
-  double first_entropy_nat_ = 0.0;
 };
 
 }  // namespace gnbv

@@ -9,6 +9,7 @@
 #include "tools/mission/resolve.hpp"
 #include "tools/python/belief_view.hpp"
 #include "tools/python/bindings.hpp"
+#include "tools/python/frame_arrays.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/terminal/interrupt.hpp"
 
@@ -64,12 +65,14 @@ class AskedPlanner {
   }
 
   UserPlanner hooks() {
-    return {.plan = [this](const Belief& belief) { return plan(belief); },
-            .on_view = [this](const ViewRecord& view) { tell_view(view); },
-            .on_refused =
-                [this](Rejection reason) {
-                  tell("on_refused", [&] { return std::string(name_of(reason)); });
-                }};
+    return {
+        .plan = [this](const Belief& belief) { return plan(belief); },
+        .on_view = [this](const ViewRecord& view) { tell_view(view); },
+        .on_sensed = [this](const SensedView& view) { seen_ = std::make_shared<KeptView>(view); },
+        .on_refused =
+            [this](Rejection reason) {
+              tell("on_refused", [&] { return std::string(name_of(reason)); });
+            }};
   }
   /// Whether arrays of the belief may be in use: in Python's hands, or its exception's.
   bool has_kept() const { return has_kept_; }
@@ -82,7 +85,7 @@ class AskedPlanner {
     const nb::object held = nb::cast(view, nb::rv_policy::take_ownership);
     const EndOfCall end(*view, has_kept_);
     try {
-      const nb::object answer = python_.attr("plan")(held);
+      const nb::object answer = python_.attr("plan")(held, frames());
       if (view->is_shared()) nb::module_::import_("gc").attr("collect")();
       if (view->is_shared()) python_.attr("kept")();
       if (answer.is_none()) return std::nullopt;
@@ -92,6 +95,13 @@ class AskedPlanner {
       raised_.keep(error);
       return std::nullopt;
     }
+  }
+
+  /// Those of the latest view, when somebody calls for them.
+  nb::object frames() const {
+    return nb::cpp_function([seen = seen_, cameras = tools_->model.cameras] {
+      return seen ? frames_of(*seen, cameras) : nb::list();
+    });
   }
 
   void tell_view(const ViewRecord& view) {
@@ -114,6 +124,7 @@ class AskedPlanner {
   Raised& raised_;
   std::unique_ptr<AskedTools> tools_;
   ViewPose current_;
+  std::shared_ptr<const KeptView> seen_;
   bool has_kept_ = false;
 };
 

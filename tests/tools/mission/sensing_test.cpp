@@ -14,6 +14,7 @@ namespace {
 class Sliding final : public Flight {
  public:
   explicit Sliding(double speed_m_s) : speed_m_s_(speed_m_s) {}
+  std::unique_ptr<Flight> clone() const override { return std::make_unique<Sliding>(*this); }
   std::int64_t tick() const override { return tick_; }
   VehicleState state() const override {
     VehicleState state;

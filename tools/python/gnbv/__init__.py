@@ -11,6 +11,7 @@ ViewStats to a score each; a planner of your own a function from Belief and Hist
 """
 
 from gnbv._errors import BadInput, BrokenInvariant, Failed, Fault, Interrupted, UtilityFailed
+from gnbv._frames import Frame
 from gnbv._loaded import __version__
 from gnbv._mission import run
 from gnbv._planner import Belief, History, View
@@ -24,6 +25,7 @@ __all__ = [
     "BrokenInvariant",
     "Failed",
     "Fault",
+    "Frame",
     "History",
     "Interrupted",
     "Run",

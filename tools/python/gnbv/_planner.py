@@ -41,8 +41,9 @@ class Belief:
     flies from a file has copies.)
     """
 
-    def __init__(self, view: Any) -> None:
+    def __init__(self, view: Any, frames: Any = None) -> None:
         self._view = view
+        self._frames = frames
 
     @property
     def log_odds(self) -> npt.NDArray[np.float32]:
@@ -104,6 +105,17 @@ class Belief:
     def density_max(self) -> float:
         """The density of a fully scanned plane."""
         return float(self._view.density_max)
+
+    @property
+    def frames(self) -> list[Any]:
+        """What each camera saw at the latest view: gnbv.Frame, its own copies. In colour where the
+        mission keeps frames (gnbv.run(..., frames=True)). Raises BadInput for a planner that flies
+        from a file."""
+        if self._frames is None:
+            raise BadInput("belief.frames: only a planner of this process, gnbv.run(planner=), has")
+        from gnbv._frames import Frame  # a planner in a file has this module alone
+
+        return [Frame(*fields) for fields in self._frames()]
 
     @property
     def current(self) -> View:
@@ -193,10 +205,10 @@ class AskedPlanner:
         self._history = History()
         self._latest: View | None = None
 
-    def plan(self, view: Any) -> npt.NDArray[np.float64] | None:
+    def plan(self, view: Any, frames: Any = None) -> npt.NDArray[np.float64] | None:
         if len(self._history.refused) >= _MOST_REFUSED:
             raise BadInput(f"planner: {_MOST_REFUSED} views in a row could not be flown")
-        answer = self._planner(Belief(view), self._history)
+        answer = self._planner(Belief(view, frames), self._history)
         if answer is None:
             return None
         rows = view_rows(answer)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from gnbv import _core
 from gnbv._errors import BadInput
+from gnbv._frames import Frames
 from gnbv._program import call
 
 Array = npt.NDArray[Any]
@@ -71,6 +72,12 @@ class Run:
     def cloud(self) -> npt.NDArray[np.float32]:
         """The model: points x 3, metres, world ENU."""
         return _core.read_cloud(os.fspath(self.folder / "cloud.ply"))
+
+    @cached_property
+    def frames(self) -> Frames:
+        """What the cameras saw at each view, of a run that keeps it (frames=True): a sequence of
+        gnbv.Frame. Raises BadInput for one that does not."""
+        return Frames(_core.read_frames(os.fspath(self.folder)))
 
     @cached_property
     def map(self) -> Array:

@@ -18,6 +18,19 @@ the logarithms of its free, unknown, occupied, predicted and thinly sampled voxe
 entropy, its density and the length of the way, 0 for those that may not be taken. All of it is
 belief.
 
+With `observe`, some of "depth", "rgb", "crop", "poses", also: "depth_NAME" (H, W) of each camera, m
+along the optical axis, 0 nearer than it measures and its range where nothing returns; "rgb_NAME"
+(H, W, 3), sRGB; "crop" (2, `crop`, `crop`, `crop`), the map's own voxels (z, y, x) around the
+vehicle: the probability of occupied, 0.5 unmeasured and outside, and the density of the cloud's
+points, a share of the most; "candidate_poses": x, y, z of the navigation box, sine and cosine of
+the yaw, pitch / (pi / 2). `env.belief` is all that is believed, as a planner of gnbv.run gets it.
+
+State: `clone_state()` and `restore_state(state)` go back to any step, exactly, as do
+copy.deepcopy(env) and pickle: the former by a copy of the mission, the latter by flying its actions
+again. With `seeds=N` episodes are of seeds 0 to N - 1, and the profile of each is flown once: steps
+are then several times as fast. The profile of a scenario whose seed changes nothing of it is kept
+anyway.
+
 Reward: the coverage gained, in shares of the ceiling (of what can be reached at all): the truth, as
 a benchmark knows it. The ceiling is searched when a scenario is first made (up to minutes; the
 cache keeps it); with goal=0 nobody needs it, and rewards are shares of the whole surface. An
@@ -33,8 +46,9 @@ and the vehicle, as (H, W, 3) bytes.
 
 from __future__ import annotations
 
-import os
+import copy
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Optional, Union
 
 try:
@@ -50,10 +64,9 @@ if int(gymnasium.__version__.split(".")[0]) < 1:
         "pip install 'gnbv[gym]'"
     )
 import numpy as np
-import numpy.typing as npt
 
-from gnbv import _core, _picture
-from gnbv._mission import _yaml
+from gnbv._episode import METADATA, Array, Episode, Observation, Stage, State
+from gnbv._planner import Belief
 
 SCENARIOS = {
     "Aircraft": "aircraft",
@@ -62,191 +75,18 @@ SCENARIOS = {
     "LabAirplane": "lab_airplane",
     "Smoke": "smoke",
 }
-_METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 4}
-_VECTOR_METADATA: dict[str, Any] = dict(_METADATA)
+_VECTOR_METADATA: dict[str, Any] = dict(METADATA)
 if hasattr(gymnasium.vector, "AutoresetMode"):  # Gymnasium 1.0 has no word for what it does
     _VECTOR_METADATA["autoreset_mode"] = gymnasium.vector.AutoresetMode.NEXT_STEP
-_OVER = ("coverage_reached", "collision", "off_course")
-Array = npt.NDArray[Any]
-Observation = dict[str, Array]
 
 
-class _Stage:
-    """What episodes share: the loaded world, the spaces, and what an action means."""
-
-    def __init__(
-        self,
-        scenario: str,
-        action: str,
-        goal: float,
-        set: Mapping[str, Any] | None,
-        threads: int,
-        render_mode: str | None,
-    ) -> None:
-        if action not in ("view", "candidate"):
-            raise ValueError(f"action={action!r}: expected 'view' or 'candidate'")
-        if render_mode not in (None, *_METADATA["render_modes"]):
-            raise ValueError(f"render_mode={render_mode!r}: expected None or 'rgb_array'")
-        self.draws = render_mode is not None
-        overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
-        self.core = _core.EnvStage(scenario, overrides, goal)
-        self.permits = _core.Permits(max(1, threads or os.cpu_count() or 1))
-        self.about: dict[str, Any] = self.core.description
-        self.is_candidate = action == "candidate"
-        self.low = np.array(self.about["low_m"])
-        self.high = np.array(self.about["high_m"])
-        self.gimbal = self.about.get("gimbal_rad")
-
-    def mission(self) -> Any:
-        return _core.EnvMission(self.core, self.permits, self.is_candidate, self.draws)
-
-    def action_space(self) -> spaces.Space[Any]:
-        if self.is_candidate:
-            return spaces.Discrete(self.about["candidates"])
-        return spaces.Box(-1.0, 1.0, (4 if self.gimbal is None else 5,), np.float32)
-
-    def observation_space(self) -> spaces.Dict:
-        parts: dict[str, spaces.Space[Any]] = {
-            "map": spaces.Box(0.0, 1.0, self.about["map_shape"], np.float32),
-            "pose": spaces.Box(-1.0, 1.0, (5,), np.float32),
-            "progress": spaces.Box(-1.0, 1.0, (2,), np.float32),
-        }
-        if self.is_candidate:
-            shape = (self.about["candidates"], self.about["features"])
-            parts["candidates"] = spaces.Box(-1.0, 1.0, shape, np.float32)
-        return spaces.Dict(parts)
-
-    def checked(self, actions: Any, *batch: int) -> Array:
-        """Actions of that batch as an array. Raises ValueError for another shape; what they hold is
-        for `check` to look at."""
-        given = np.asarray(actions)
-        shape = (*batch, *self.action_space().shape)  # type: ignore[misc]
-        kinds, words = ("iu", "whole numbers") if self.is_candidate else ("iuf", "numbers")
-        if given.shape != shape or given.dtype.kind not in kinds:
-            raise ValueError(
-                f"step: expected {words} of shape {shape}, got shape {given.shape} of {given.dtype}"
-            )
-        return given
-
-    def check(self, action: Array, where: str = "") -> None:
-        """Raises ValueError for one that is none, which a policy that diverged gives."""
-        if self.is_candidate and not 0 <= action < self.about["candidates"]:
-            raise ValueError(
-                f"step: action{where} {action}: expected 0 to {self.about['candidates'] - 1}"
-            )
-        if not np.isfinite(action).all():
-            raise ValueError(f"step: action{where} {action}: NaN or infinite is no view")
-
-    def view_of(self, action: Array, state: dict[str, Any]) -> Array | None:
-        """The view (1 x 5) that an action means; None: a candidate that may not be taken."""
-        if self.is_candidate:
-            index = int(action)
-            return state["views"][index : index + 1] if state["mask"][index] else None
-        given = np.clip(action.astype(np.float64), -1.0, 1.0)
-        view = np.zeros((1, 5))
-        view[0, :3] = self.low + 0.5 * (given[:3] + 1.0) * (self.high - self.low)
-        view[0, 3] = np.pi * given[3]
-        if self.gimbal is not None:
-            low, high = self.gimbal
-            view[0, 4] = low + 0.5 * (given[4] + 1.0) * (high - low)
-        return view
-
-    def observation(self, state: dict[str, Any], steps: int) -> Observation:
-        used = min(1.0, (1 + steps) / self.about["max_iterations"])
-        seen = {
-            "map": state["map"].reshape(self.about["map_shape"]).copy(),
-            "pose": state["pose"].copy(),
-            "progress": np.array([state["entropy_left"], used], np.float32),
-        }
-        if self.is_candidate:
-            seen["candidates"] = state["candidates"].copy()
-        return seen
-
-
-class _Episode:
-    """One mission, step by step: check_ready(), act() and then result()."""
-
-    def __init__(self, stage: _Stage) -> None:
-        self.stage = stage
-        self.mission = stage.mission()
-        self.state: dict[str, Any] = {}
-        self.steps = 0
-        self._refused = ""
-        self._acts = False
-        self.lacks = "was not reset"  # why there can be no step; ""
-        self.way: list[Array] = []
-
-    def begin(self, seed: int) -> None:
-        self.lacks = "was interrupted, or its mission failed, as it began"
-        self.mission.begin(seed)
-        self.steps = 0
-
-    def begun(self) -> tuple[Observation, dict[str, Any]]:
-        self._refused = ""
-        self.state = self.mission.wait()
-        self.lacks = ""
-        self.way = [self.state["view"][0]]
-        return self.stage.observation(self.state, self.steps), self.info()
-
-    def check_ready(self) -> None:
-        if self.lacks:
-            raise RuntimeError(f"step: the episode {self.lacks}; call reset()")
-
-    def act(self, action: Array) -> None:
-        """Of a checked action. Until result() returns nothing can follow."""
-        self.lacks = "was interrupted, or its mission failed, in the step before"
-        self.steps += 1
-        self._acts = not self.state["ended"]  # it may have ended with the profile
-        view = self.stage.view_of(action, self.state) if self._acts else None
-        self._refused = "masked" if view is None and self._acts else ""
-        self._acts = view is not None
-        if view is not None:
-            self.mission.act(view)
-
-    def result(self) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        before = self.state["coverage"]
-        if self._acts:
-            self.state = self.mission.wait()
-        reward = (self.state["coverage"] - before) / self.stage.about["ceiling"]
-        ended = bool(self.state["ended"])
-        terminated = ended and self.state["termination"] in _OVER
-        # the start's view is the first; what the mission refuses counts here
-        is_spent = 1 + self.steps >= self.stage.about["max_iterations"]
-        truncated = not terminated and (ended or is_spent)
-        self.lacks = "is over" if terminated or truncated else ""
-        self.way.append(self.state["view"][0])
-        seen = self.stage.observation(self.state, self.steps)
-        return seen, float(reward), terminated, truncated, self.info()
-
-    def info(self) -> dict[str, Any]:
-        names = ("coverage", "entropy_nat", "cloud_points", "flown_m", "time_s", "termination")
-        info = {name: self.state[name] for name in names}
-        info["refused"] = self._refused or self.state["refused"]
-        if self.stage.is_candidate:
-            info["action_mask"] = self.state["mask"].astype(np.int8)
-        return info
-
-    def picture(self) -> Array | None:
-        """None where no pictures are asked for."""
-        if not self.stage.draws:
-            return None
-        if not self.way:
-            raise RuntimeError("render: the episode was not reset; call reset()")
-        top = self.state["top"]
-        cells = top.reshape(len(top), -1, 2)
-        return _picture.from_above(
-            cells, self.state["top_low_m"], self.state["top_high_m"], self.way
-        )
-
-    def close(self) -> None:
-        self.lacks = "is closed"
-        self.mission.close()
+_OWN = ("_stage", "_episode")  # of an environment: neither copied nor pickled
 
 
 class NbvEnv(gymnasium.Env[Observation, Any]):
     """One mission at a time; see the module's text."""
 
-    metadata = _METADATA
+    metadata = METADATA
 
     def __init__(
         self,
@@ -255,12 +95,28 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         goal: float = 0.95,
         set: Mapping[str, Any] | None = None,
         render_mode: str | None = None,
+        seeds: int = 0,
+        observe: Sequence[str] = (),
+        crop: int = 32,
     ) -> None:
         """`goal`: share of the ceiling at which an episode ends, 0: never; `set`: values of the
-        scenario by key. Raises gnbv.BadInput."""
+        scenario by key; `seeds`: episodes are missions of so many seeds, 0 to seeds - 1, whose
+        profiles are kept; 0: of any; `observe`, `crop`: what more is observed, and the crop's edge
+        in voxels. Raises gnbv.BadInput."""
         self.render_mode = render_mode
-        self._stage = _Stage(scenario, action, goal, set, 1, render_mode)
-        self._episode = _Episode(self._stage)
+        self._made: dict[str, Any] = {
+            "scenario": scenario,
+            "action": action,
+            "goal": goal,
+            "set": dict(set or {}),
+            "threads": 1,
+            "render_mode": render_mode,
+            "seeds": seeds,
+            "observe": tuple(observe),
+            "crop": crop,
+        }
+        self._stage = Stage(**self._made)
+        self._episode = Episode(self._stage)
         self.action_space = self._stage.action_space()
         self.observation_space: spaces.Space[Any] = self._stage.observation_space()
 
@@ -269,7 +125,7 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
     ) -> tuple[Observation, dict[str, Any]]:
         """A new mission: the same seed repeats it bit by bit."""
         super().reset(seed=seed)
-        self._episode.begin(int(self.np_random.integers(2**31)))
+        self._episode.begin(self.np_random)
         return self._episode.begun()
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
@@ -282,9 +138,55 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
     def render(self) -> Any:
         return self._episode.picture()
 
+    @property
+    def belief(self) -> Belief:
+        """What is believed now: gnbv.Belief, a copy that stays as it is."""
+        return self._episode.belief()
+
     def action_masks(self) -> Array:
         """As info["action_mask"], under the name that sb3-contrib asks for."""
         return np.asarray(self._episode.state["mask"], dtype=bool)
+
+    def clone_state(self) -> State:
+        """All that the episode is, its random numbers included: from a restored state the same
+        actions bring the same. Costs a copy of what is believed; the mission does not go on."""
+        return replace(self._episode.kept(), random=copy.deepcopy(self.np_random))
+
+    def restore_state(self, state: State) -> None:
+        """Goes on where clone_state() was called, of this or of another environment made with the
+        same arguments; ValueError for one that was not."""
+        self._episode.restore(state)
+        self._np_random = copy.deepcopy(state.random)
+
+    @property
+    def result_sha256(self) -> str:
+        """Of a mission that is over what summary.json of `gnbv run` says; "" otherwise."""
+        return str(self._episode.mission.result_sha256())
+
+    def __getstate__(self) -> dict[str, Any]:
+        kept = {key: value for key, value in self.__dict__.items() if key not in _OWN}
+        is_there = self._episode.lacks in ("", "is over")
+        return {**kept, "_state": self.clone_state() if is_there else None}
+
+    def __setstate__(self, given: dict[str, Any]) -> None:
+        state = given.pop("_state")
+        self.__dict__.update(given)
+        self._stage = Stage(**self._made)
+        self._episode = Episode(self._stage)
+        if state is not None:
+            self.restore_state(state)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> NbvEnv:
+        """Another one, in the same state; what does not change is shared."""
+        made = type(self).__new__(type(self))
+        given = self.__getstate__()
+        state = given.pop("_state")
+        made.__dict__.update(copy.deepcopy(given, memo))
+        made._stage = self._stage
+        made._episode = Episode(self._stage)
+        if state is not None:
+            made.restore_state(state)
+        return made
 
     def close(self) -> None:
         self._episode.close()
@@ -306,11 +208,14 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         set: Mapping[str, Any] | None = None,
         threads: int = 0,
         render_mode: str | None = None,
+        seeds: int = 0,
+        observe: Sequence[str] = (),
+        crop: int = 32,
     ) -> None:
         self.num_envs = num_envs
         self.render_mode = render_mode
-        self._stage = _Stage(scenario, action, goal, set, threads, render_mode)
-        self._episodes = [_Episode(self._stage) for _ in range(num_envs)]
+        self._stage = Stage(scenario, action, goal, set, threads, render_mode, seeds, observe, crop)
+        self._episodes = [Episode(self._stage) for _ in range(num_envs)]
         self._over = np.zeros(num_envs, dtype=bool)
         self._randoms: list[np.random.Generator] = []
         self.single_action_space = self._stage.action_space()
@@ -336,7 +241,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
             self._randoms = [gymnasium.utils.seeding.np_random(s)[0] for s in seeds]
         self._over[:] = False
         for episode, random in zip(self._episodes, self._randoms, strict=True):
-            episode.begin(int(random.integers(2**31)))
+            episode.begin(random)
         seen, infos = zip(*(episode.begun() for episode in self._episodes), strict=True)
         return self._stacked(seen), self._infos(infos)
 
@@ -349,7 +254,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
                 self._stage.check(given[i], f" {i}")
         for i, episode in enumerate(self._episodes):
             if again[i]:
-                episode.begin(int(self._randoms[i].integers(2**31)))
+                episode.begin(self._randoms[i])
             else:
                 episode.act(given[i])
         results = []
