@@ -123,11 +123,35 @@ void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
   }
 }
 
+/// The optical axis in the image; a model that goes at least that far; no field of view from square
+/// pixels that a file could not hold.
+void check_lens(const CameraConfig& c, const std::string& key, Problems& out) {
+  constexpr double kWidest_rad = deg_to_rad(170.0);
+  const double widest_rad = std::max(c.fov_x_rad, c.fov_y_rad);
+  require(c.fx_px != 0.0 || widest_rad <= kWidest_rad, out,
+          {key + "fov_x_deg", key + "fov_y_deg", key + "width_px", key + "height_px"},
+          "square pixels make the other field of view {:.1f} degrees; at most 170 is allowed",
+          rad_to_deg(widest_rad));
+  require(c.cx_px <= c.width_px, out, {key + "cx_px", key + "width_px"},
+          "cx_px = {} lies outside the image, width_px = {}", c.cx_px, c.width_px);
+  require(c.cy_px <= c.height_px, out, {key + "cy_px", key + "height_px"},
+          "cy_px = {} lies outside the image, height_px = {}", c.cy_px, c.height_px);
+  constexpr double kLeast_rad = deg_to_rad(1.0);
+  if (c.distortion.model == Distortion::none || c.cx_px > c.width_px || c.cy_px > c.height_px)
+    return;
+  require(make_camera_model(c).sight_rad.sizes().minCoeff() >= kLeast_rad, out,
+          {key + "distortion", key + "distortion.k1", key + "distortion.model"},
+          "the model folds within a degree of the optical axis: no image comes of it");
+}
+
 void check_sensors(const Scenario& s, Problems& out) {
   const ProfilingConfig& profiling = s.planner.profiling;
   require(!s.cameras.empty(), out, {"cameras"}, "names no camera; at least one has to look");
   check_list(s.cameras, "cameras", out);
   check_gimbal(s.cameras, out);
+  for (std::size_t i = 0; i < s.cameras.size(); ++i) {
+    check_lens(s.cameras[i], fmt::format("cameras.{}.", i), out);
+  }
   check_list(s.lidars, "lidars", out);
   require(!s.lidars.empty() || !flies_a_profile(s), out, {"lidars", "planner.profiling.method"},
           "the profile needs a LIDAR to scan it");
@@ -203,17 +227,16 @@ void check_lengths(const PlannerConfig& planner, Problems& out) {
           resolution_m);
 }
 
-/// The lattice of candidate rays on the plane at maximum range, one a voxel.
+/// The lattice of candidate rays at maximum range, one a voxel.
 void check_view_rays(const Scenario& s, Problems& out) {
   constexpr double kMaxRays = 1e6;
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
     const CameraConfig& c = s.cameras[i];
-    const double plane_m = 2.0 * c.range_max_m / s.planner.map.resolution_m;
-    const double rays =
-        plane_m * std::tan(0.5 * c.fov_x_rad) * plane_m * std::tan(0.5 * c.fov_y_rad);
+    const double resolution_m = s.planner.map.resolution_m;
+    const double rays = 3.0 * frustum_m3(c) / (c.range_max_m * resolution_m * resolution_m);
     require(rays <= kMaxRays, out,
             {fmt::format("cameras.{}.range_max_m", i), "planner.map.resolution_m"},
-            "a view would be {:.2g} rays, one a voxel of the plane at maximum range; at most "
+            "a view would be {:.2g} rays, one a voxel at maximum range; at most "
             "{:.0g} can be walked for every candidate",
             rays, kMaxRays);
   }

@@ -185,6 +185,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   need_room_for(scenario.score.sizes_m, world.structure);
   const ViewPose start = start_pose(scenario, scene);
   need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
+  const std::string moved = moved_start_note(scenario, start);
+  if (!moved.empty() && !options.quiet) say(moved);
   if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
     say(warning);
   }
