@@ -67,9 +67,10 @@ struct Calibration {
   }
 };
 
-Value value_of(const YamlNode& node) {
+Value value_of(const YamlEntry& entry) {
+  const YamlNode& node = entry.value;
   Value value;
-  value.line = static_cast<std::size_t>(node.location.line);
+  value.line = static_cast<std::size_t>(entry.location.line);
   const YamlNode* const data = node.find("data");
   const YamlNode& held = data != nullptr ? *data : node;
   value.text = held.text;
@@ -99,7 +100,7 @@ Calibration of_yaml(const std::string& file, std::string text, const std::string
   const std::string chosen = camera.empty() && first != root->entries.end() ? first->key : camera;
   const YamlNode* const node = chosen.empty() ? &*root : root->find(chosen);
   if (node == nullptr) throw BadInput(fmt::format("{}: holds no camera '{}'", file, chosen));
-  for (const YamlEntry& entry : node->entries) out.values[entry.key] = value_of(entry.value);
+  for (const YamlEntry& entry : node->entries) out.values[entry.key] = value_of(entry);
   return out;
 }
 

@@ -199,7 +199,12 @@ class Lens {
     const double most =
         is_radial() ? distortion_.max_angle_rad : std::tan(distortion_.max_angle_rad);
     for (int i = 1; i <= kSteps && distortion_.model != Distortion::none; ++i) {
-      if (!(slope(most * i / kSteps) >= kLeastSlope)) return most * (i - 1) / kSteps;
+      const double s = most * i / kSteps;
+      // off its centre, the lens adds no more than this to either way's slope
+      const double off_centre =
+          is_radial() ? 0.0 : 6.0 * std::hypot(distortion_.p1, distortion_.p2) * s;
+      const double least = std::min(slope(s), is_radial() ? slope(s) : spread(s) / s) - off_centre;
+      if (!(least >= kLeastSlope)) return most * (i - 1) / kSteps;
     }
     return most;
   }
@@ -231,8 +236,12 @@ class Lens {
         const Vec2 step = h * Vec2::Unit(a);
         J.col(a) = (distort(xy + step) - distort(xy - step)) / (2.0 * h);
       }
-      xy -= J.inverse() * off;
-      if (!xy.allFinite()) return false;
+      Vec2 step = J.inverse() * off;
+      if (!step.allFinite()) return false;
+      for (int half = 0; half < 8; ++half, step *= 0.5) {
+        if ((distort(xy - step) - distorted).norm() < off.norm()) break;
+      }
+      xy -= step;
     }
     return false;
   }

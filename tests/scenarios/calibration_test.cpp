@@ -174,7 +174,8 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
   EXPECT_THAT(read(with(kOpenCv, "5.3591573396163199e+02,", "-1.,")).complaint,
               HasSubstr("focal lengths -1 and"));
   EXPECT_THAT(read("a: [").complaint, HasSubstr("calib:1: "));
-  EXPECT_THAT(read("").complaint, HasSubstr("holds no map of keys"));
+  EXPECT_THAT(read("").complaint, HasSubstr("is empty"));
+  EXPECT_THAT(read("[1, 2]").complaint, HasSubstr("holds no map of keys"));
   EXPECT_THAT(complaint("cameras: [{calibration: none.yaml}]\n"), HasSubstr("none.yaml"));
 }
 
