@@ -1,4 +1,5 @@
 #include "scenarios/builtin.hpp"
+#include "scenarios/calibration.hpp"
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
@@ -206,6 +207,29 @@ void fields(const Keys& key, DepthNoiseConfig& c) {
   of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: standard deviation.");
 }
 
+void fields(const Keys& key, DistortionConfig& c) {
+  using enum Distortion;
+  constexpr Range kAny = {-1e6, 1e6};
+  key("model", c.model,
+      {{none, distortion_name(none)},
+       {brown_conrady, distortion_name(brown_conrady)},
+       {kannala_brandt, distortion_name(kannala_brandt)}},
+      "OpenCV's: brown_conrady with k4 to k6 of the rational model; kannala_brandt, a fisheye, "
+      "whose ranges count along the ray.");
+  const Keys distorted = key.only_if(c.model != none, ".model");
+  const Keys brown = distorted.only_if(c.model == brown_conrady, ".model");
+  distorted("k1", c.k1, kAny, "Radial, of the second power.");
+  distorted("k2", c.k2, kAny, "Radial, of the fourth power.");
+  distorted("k3", c.k3, kAny, "Radial, of the sixth power.");
+  distorted("k4", c.k4, kAny, "brown_conrady: of the divisor; kannala_brandt: the eighth power.");
+  brown("k5", c.k5, kAny, "brown_conrady: of the divisor, the fourth power.");
+  brown("k6", c.k6, kAny, "brown_conrady: of the divisor, the sixth power.");
+  brown("p1", c.p1, kAny, "brown_conrady: of a lens off its centre.");
+  brown("p2", c.p2, kAny, "brown_conrady: of a lens off its centre.");
+  distorted.angle("max_angle_deg", c.max_angle_rad, {1, 85},
+                  "What lies farther off the optical axis is not seen.");
+}
+
 void fields(const Keys& key, GimbalConfig& c) {
   key.angle("min", c.min_rad, {-90, 90}, "The first pitch, degrees; negative looks up.");
   key.angle("max", c.max_rad, {-90, 90}, "No pitch is above this.");
@@ -217,8 +241,23 @@ void fields(const Keys& key, CameraConfig& c) {
   key.word("name", c.name, "Name of the camera, unlike that of any other.");
   key("width_px", c.width_px, {1, 8192}, "Pixels per row.");
   key("height_px", c.height_px, {1, 8192}, "Pixels per column.");
-  key.angle("fov_x_deg", c.fov_x_rad, {1, 170}, "Horizontal field of view.");
-  key.angle("fov_y_deg", c.fov_y_rad, {1, 170}, "Vertical field of view.");
+  std::string calibration;
+  key.path("calibration", calibration,
+           "File of OpenCV, Kalibr (FILE#cam1: its second camera) or ROS camera_info, whose image "
+           "size, focal lengths, centre and distortion are these keys' values; a run keeps those.");
+  if (!calibration.empty()) read_calibration(calibration, c);
+  const Keys of_angles = key.only_if(c.fx_px == 0.0, ".fx_px");
+  of_angles.angle("fov_x_deg", c.fov_x_rad, {1, 170},
+                  "Horizontal field of view; given alone, pixels are square.");
+  of_angles.angle("fov_y_deg", c.fov_y_rad, {1, 170},
+                  "Vertical field of view; given alone, pixels are square.");
+  key("fx_px", c.fx_px, {0, 1e6}, "Focal length along a row; 0: of the field of view.");
+  key("fy_px", c.fy_px, {0, 1e6}, "Focal length along a column; 0: as fx_px.");
+  key("cx_px", c.cx_px, {0, 8192},
+      "Column of the optical axis, the first pixel's centre at 0.5; 0: the image's middle.");
+  key("cy_px", c.cy_px, {0, 8192}, "Row of the optical axis; 0: the image's middle.");
+  key("skew_px", c.skew_px, {-1e4, 1e4}, "Added to the column, a focal length down the image.");
+  key.section("distortion", c.distortion, "Of the lens.");
   key("range_min_m", c.range_min_m, {0, 1e3}, "Along the optical axis; nearer ones are invalid.");
   key("range_max_m", c.range_max_m, positive(1e3), "Along the optical axis; none is farther.");
   key("return_max_m", c.return_max_m, {0, 1e3},

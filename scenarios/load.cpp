@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "scenarios/builtin.hpp"
 #include "scenarios/problems.hpp"
 #include "scenarios/reader.hpp"
+#include "scenarios/values.hpp"
 #include "sim/core/file.hpp"
 
 namespace gnbv {
@@ -169,6 +171,7 @@ Loaded load(const std::string& name_or_path, const std::vector<Override>& overri
     if (picks) read(*picks, folder.empty() ? here() : folder, given);
   }
   set_preset_flight(scenario, locations);
+  set_square_pixels(scenario, locations);
   SourceLocations given_by_user = locations;
   if (source.is_builtin) {
     std::erase_if(given_by_user, [](const auto& given) { return given.second.rank == 0; });
@@ -190,6 +193,21 @@ Scenario noting_removed(Loaded loaded) {
 }
 
 }  // namespace
+
+void set_square_pixels(Scenario& scenario, const SourceLocations& given) {
+  for (std::size_t i = 0; i < scenario.cameras.size(); ++i) {
+    CameraConfig& c = scenario.cameras[i];
+    const bool has_x = given.contains(fmt::format("cameras.{}.fov_x_deg", i));
+    const bool has_y = given.contains(fmt::format("cameras.{}.fov_y_deg", i));
+    if (has_x == has_y) continue;
+    const double shape = static_cast<double>(c.height_px) / c.width_px;
+    const auto opening_rad = [](double half_tan) {
+      return written_angle_rad(2.0 * std::atan(half_tan));
+    };
+    if (has_x) c.fov_y_rad = opening_rad(shape * std::tan(0.5 * c.fov_x_rad));
+    if (has_y) c.fov_x_rad = opening_rad(std::tan(0.5 * c.fov_y_rad) / shape);
+  }
+}
 
 void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
   constexpr double kGazebos_m = 5.0;

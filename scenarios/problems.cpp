@@ -96,52 +96,6 @@ void check_world(const Scenario& s, Problems& out) {
   check_meets_workspace("planner.object_bounds_m", s.planner.object_bounds_m);
 }
 
-/// Of either list. Files and messages tell its sensors apart by their names.
-template <typename Sensor>
-void check_list(const std::vector<Sensor>& sensors, const std::string& list, Problems& out) {
-  const auto name_key = [&](std::size_t i) { return fmt::format("{}.{}.name", list, i); };
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    require_below(out, fmt::format("{}.{}.", list, i), "range_min_m", sensors[i].range_min_m,
-                  "range_max_m", sensors[i].range_max_m);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!require(sensors[i].name != sensors[j].name, out, {name_key(i), name_key(j)},
-                   "two {}, {} and {}, are named '{}'", list, j, i, sensors[i].name)) {
-        break;
-      }
-    }
-  }
-}
-
-/// A vehicle has one gimbal; several cameras may hang on it.
-void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
-  const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const std::string key = fmt::format("cameras.{}.pitch_deg", i);
-    const std::optional<GimbalConfig>& own = cameras[i].gimbal;
-    if (!own) continue;
-    require_below(out, key + '.', "min", degrees_of(own->min_rad), "max", degrees_of(own->max_rad));
-    require(own->min_rad == gimbal->min_rad && own->max_rad == gimbal->max_rad &&
-                own->step_rad == gimbal->step_rad,
-            out, {key},
-            "another gimbal than that of the camera before: cameras that are not fixed hang on "
-            "one gimbal, with the same min, max and step");
-  }
-}
-
-void check_sensors(const Scenario& s, Problems& out) {
-  const ProfilingConfig& profiling = s.planner.profiling;
-  require(!s.cameras.empty(), out, {"cameras"}, "names no camera; at least one has to look");
-  check_list(s.cameras, "cameras", out);
-  check_gimbal(s.cameras, out);
-  check_list(s.lidars, "lidars", out);
-  require(!s.lidars.empty() || !flies_a_profile(s), out, {"lidars", "planner.profiling.method"},
-          "the profile needs a LIDAR to scan it");
-  require(profiling.method != ProfilingMethod::saved || !profiling.file.empty(), out,
-          {"planner.profiling.file", "planner.profiling.method"},
-          "saved: names no file; an earlier run's profile.map, or an OctoMap (.bt, .ot), has to be "
-          "named");
-}
-
 /// Size and place of the map; only for a workspace that is a box.
 void check_map_size(const Scenario& s, Problems& out) {
   constexpr double kGiB = 1024.0 * 1024 * 1024;
@@ -209,17 +163,16 @@ void check_lengths(const PlannerConfig& planner, Problems& out) {
           resolution_m);
 }
 
-/// The lattice of candidate rays on the plane at maximum range, one a voxel.
+/// The lattice of candidate rays at maximum range, one a voxel.
 void check_view_rays(const Scenario& s, Problems& out) {
   constexpr double kMaxRays = 1e6;
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
     const CameraConfig& c = s.cameras[i];
-    const double plane_m = 2.0 * c.range_max_m / s.planner.map.resolution_m;
-    const double rays =
-        plane_m * std::tan(0.5 * c.fov_x_rad) * plane_m * std::tan(0.5 * c.fov_y_rad);
+    const double resolution_m = s.planner.map.resolution_m;
+    const double rays = 3.0 * frustum_m3(c) / (c.range_max_m * resolution_m * resolution_m);
     require(rays <= kMaxRays, out,
             {fmt::format("cameras.{}.range_max_m", i), "planner.map.resolution_m"},
-            "a view would be {:.2g} rays, one a voxel of the plane at maximum range; at most "
+            "a view would be {:.2g} rays, one a voxel at maximum range; at most "
             "{:.0g} can be walked for every candidate",
             rays, kMaxRays);
   }

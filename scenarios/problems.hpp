@@ -24,8 +24,9 @@ Problems problems(const Scenario& scenario);
 /// mean free space (planner.map.no_return), and returns end before that does. "" for any other.
 std::string clearing_note(const Scenario& scenario);
 
-/// Its part: adds what is wrong with vehicle, guidance and wind.
+/// Its parts: add what is wrong with vehicle, guidance and wind, and with cameras and LIDARs.
 void check_vehicle(const Scenario& scenario, Problems& out);
+void check_sensors(const Scenario& scenario, Problems& out);
 
 /// Returns whether the condition holds; adds a problem where it does not. `what` is a fmt message.
 template <typename... Args>

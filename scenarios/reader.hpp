@@ -40,4 +40,7 @@ std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
 /// passed.
 void set_preset_flight(Scenario& scenario, const SourceLocations& given);
 
+/// A camera with one of its two fields of view given has square pixels.
+void set_square_pixels(Scenario& scenario, const SourceLocations& given);
+
 }  // namespace gnbv

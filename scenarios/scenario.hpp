@@ -88,7 +88,7 @@ inline const std::array<NamedStart, 6> kNamedStarts = {{{"own", {}},
 struct StartConfig {
   std::string preset = "own";  // a label: the named start whose pose this began as
   ViewPose pose = {Vec3(0.0, -20.0, 5.0), deg_to_rad(90.0)};
-  Vec3 jitter_m = Vec3(5.0, 1.0, 2.0);
+  Vec3 jitter_m = Vec3::Zero();
   double jitter_yaw_rad = 0.0;
   bool on_ground = false;  // begins at rest below, and climbs there first
 };

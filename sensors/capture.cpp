@@ -90,7 +90,7 @@ struct DepthCapture {
       const auto lateral = [&](int axis) {
         return sigma_px * deviate(key, Stream::lateral_noise, 2 * frame.camera + axis, pixel);
       };
-      const Vec3f shift_world = tiles.shift_world(lateral(0), lateral(1));
+      const Vec3f shift_world = tiles.shift_world(lateral(0), lateral(1), pixel);
       packet.x[ray] += shift_world.x();
       packet.y[ray] += shift_world.y();
       packet.z[ray] += shift_world.z();
@@ -109,6 +109,19 @@ struct DepthCapture {
                           return_end_m(camera.config));
   }
 };
+
+/// Ranges along a radial lens's rays become depths along the axis; pixels without a ray say
+/// nothing.
+void put_lens_depths(const Lens& lens, std::vector<float>& depth_m) {
+  for (std::size_t i = 0; i < depth_m.size(); ++i) {
+    const Eigen::Vector2f& xy = lens.directions()[i];
+    if (std::isnan(xy.x())) {
+      depth_m[i] = kInvalidRange;
+    } else if (lens.is_radial()) {
+      depth_m[i] /= xy.homogeneous().norm();
+    }
+  }
+}
 
 /// The pose `intervals` after the first one: position and rotation change evenly in between.
 Isometry pose_during(std::span<const Isometry> poses, double intervals) {
@@ -175,6 +188,7 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
   const bool is_exact = camera.config.noise.model == DepthNoise::none;
   capture.tiles.for_each_run(
       threads, [&](TileRun& run) { is_exact ? capture.exact_run(run) : capture.noisy_run(run); });
+  if (camera.lens) put_lens_depths(*camera.lens, frame.depth_m);
   return frame;
 }
 

@@ -72,6 +72,7 @@ struct ColourCapture {
       surfaces.push_back(surface_of(run.directions_world[tile], run.hits[tile]));
     }
     tiles.for_each_pixel(run, [&](std::size_t tile, std::size_t ray, std::size_t pixel) {
+      if (!tiles.is_seen(pixel)) return;  // black
       const std::int32_t face = run.hits[tile].face[ray];
       const Vec3f linear = face == kNoFace ? sky_colour(run.directions_world[tile].direction(ray))
                                            : colour_of(face, surfaces[tile], ray);

@@ -36,6 +36,11 @@ class PixelTiles {
         per_px_(static_cast<float>(1.0 / camera.fx_px), static_cast<float>(1.0 / camera.fy_px)) {
     GNBV_CHECK(width_px_ > 0 && height_px_ > 0, "camera {} has {} x {} pixels", camera.config.name,
                width_px_, height_px_);
+    if (camera.lens) {
+      lens_ = camera.lens.get();
+      lens_->directions();  // made here, before threads ask for them
+      return;
+    }
     // the separable parts of CameraModel::ray_camera
     for (int u = 0; u < kTile_px * tiles_along(width_px_); ++u) {
       x_camera_.push_back(camera.ray_camera(std::min(u, width_px_ - 1), 0).x());
@@ -74,10 +79,22 @@ class PixelTiles {
     });
   }
 
-  /// What looking this many pixels further right and down adds to a direction.
-  Vec3f shift_world(double right_px, double down_px) const {
+  /// What looking this many pixels further right and down of that pixel adds to a direction.
+  Vec3f shift_world(double right_px, double down_px, std::size_t pixel) const {
+    if (lens_ != nullptr) {
+      const auto width = static_cast<std::size_t>(width_px_);
+      const auto there = lens_->direction_at(static_cast<double>(pixel % width) + 0.5 + right_px,
+                                             static_cast<double>(pixel / width) + 0.5 + down_px);
+      if (!there || !is_seen(pixel)) return Vec3f::Zero();
+      return R_world_camera_ * (ray_of(there->cast<float>()) - ray_of(lens_->directions()[pixel]));
+    }
     return static_cast<float>(right_px) * per_px_.x() * R_world_camera_.col(0) +
            static_cast<float>(down_px) * per_px_.y() * R_world_camera_.col(1);
+  }
+
+  /// Whether the lens sends anything to that pixel.
+  bool is_seen(std::size_t pixel) const {
+    return lens_ == nullptr || !std::isnan(lens_->directions()[pixel].x());
   }
 
   /// Puts the distances of a tile's rays into its pixels of a row-major image.
@@ -121,11 +138,35 @@ class PixelTiles {
   static constexpr int kTile_px = 4;
   static_assert(kTile_px * kTile_px == RayPacket::kRays);
 
+  /// The ray along which ranges are measured; the axis where there is none.
+  Vec3f ray_of(const Eigen::Vector2f& xy) const {
+    if (std::isnan(xy.x())) return Vec3f::UnitZ();
+    return lens_->is_radial() ? Vec3f(xy.homogeneous().normalized()) : Vec3f(xy.homogeneous());
+  }
+
+  void set_lens_directions(TileRun& run) const {
+    for (std::size_t tile = 0; tile < run.directions_world.size(); ++tile) {
+      RayPacket& packet = run.directions_world[tile];
+      for (int ray = 0; ray < kTile_px * kTile_px; ++ray) {
+        const int u = (run.first + static_cast<int>(tile)) * kTile_px + ray % kTile_px;
+        const int v = run.row * kTile_px + ray / kTile_px;
+        const int pixel = std::min(v, height_px_ - 1) * width_px_ + std::min(u, width_px_ - 1);
+        const Vec3f along =
+            R_world_camera_ * ray_of(lens_->directions()[static_cast<std::size_t>(pixel)]);
+        const auto i = static_cast<std::size_t>(ray);
+        packet.x[i] = along.x();
+        packet.y[i] = along.y();
+        packet.z[i] = along.z();
+      }
+    }
+  }
+
   static int tiles_along(int side_px) { return (side_px + kTile_px - 1) / kTile_px; }
 
   /// Through the pixel centres. They reach z = 1 of the optical frame, so that distances along them
-  /// are depths.
+  /// are depths; those of a radial lens are of length 1.
   void set_directions(TileRun& run) const {
+    if (lens_ != nullptr) return set_lens_directions(run);
     using Four = Eigen::Array4f;
     static_assert(kTile_px == Four::SizeAtCompileTime);
     const Vec3f right_world = R_world_camera_.col(0);
@@ -144,6 +185,7 @@ class PixelTiles {
 
   int width_px_;
   int height_px_;
+  const Lens* lens_ = nullptr;  // of the camera
   Eigen::Matrix3f R_world_camera_;
   Eigen::Vector2f per_px_;       // of the plane z = 1, a pixel
   std::vector<float> x_camera_;  // of every column of the tiles

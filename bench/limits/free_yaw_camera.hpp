@@ -31,7 +31,8 @@ class FreeYawCamera {
     Vec3 per_height = Vec3::Zero();
     Vec3 p_turned_m = Vec3::Zero();  // the camera, on a vehicle that has a point at bearing 0 here
   };
-  double tan_x_ = 0.0, tan_y_ = 0.0, range_min_m_ = 0.0, range_max_m_ = 0.0, reach_m_ = 0.0;
+  CameraModel camera_;
+  double range_min_m_ = 0.0, range_max_m_ = 0.0, reach_m_ = 0.0;
   Vec3 offset_camera_m_ = Vec3::Zero();
   std::vector<Bearing> bearings_;
 };

@@ -10,7 +10,17 @@ namespace {
 
 /// Whether the point (in the camera's frame) lies in the frustum, between the ranges, and not
 /// nearer to one of its four sides than `margin_m`.
-bool is_in_frustum(const CameraConfig& config, const Vec3& p_camera_m, double margin_m = 0.0) {
+bool is_in_frustum(const CameraModel& camera, const Vec3& p_camera_m, double margin_m = 0.0) {
+  const CameraConfig& config = camera.config;
+  if (camera.lens) {
+    const double range_m = camera.range_of(p_camera_m);
+    if (range_m < config.range_min_m || range_m > config.range_max_m) return false;
+    const auto sees = [&](double right_m, double down_m) {
+      return camera.lens->sees(p_camera_m + Vec3(right_m, down_m, 0.0));
+    };
+    return sees(margin_m, 0.0) && sees(-margin_m, 0.0) && sees(0.0, margin_m) &&
+           sees(0.0, -margin_m);
+  }
   const double depth_m = p_camera_m.z();
   const auto is_inside = [&](double across_m, double fov_rad) {
     const double edge_m = depth_m * std::tan(0.5 * fov_rad) - std::fabs(across_m);
@@ -35,15 +45,17 @@ bool is_clear_before(const OccupancyGrid& grid, const Vec3& from_m, const Vec3& 
 /// A camera where the view puts it.
 struct PlacedCamera {
   PlacedCamera(const CameraModel& camera, const Isometry& T_world_body)
-      : config(camera.config),
+      : model(camera),
+        config(camera.config),
         T_world_camera(T_world_body * camera.T_body_camera),
         T_camera_world(T_world_camera.inverse()) {}
 
   bool has(const Vec3& p_world_m, double margin_m = 0.0) const {
-    return is_in_frustum(config, T_camera_world * p_world_m, margin_m);
+    return is_in_frustum(model, T_camera_world * p_world_m, margin_m);
   }
   Vec3 origin_m() const { return T_world_camera.translation(); }
 
+  const CameraModel& model;
   const CameraConfig& config;
   Isometry T_world_camera, T_camera_world;
 };

@@ -142,7 +142,8 @@ bool can_project(const GridGeometry& grid, const DepthFrame& frame, const Camera
   const Eigen::Matrix3d R = frame.T_world_camera.linear();
   const double rotation_error =
       (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  return grid.contains(grid.key_of(Vec3f(frame.T_world_camera.translation().cast<float>()))) &&
+  return (!camera.lens || camera.lens->is_pinhole()) &&
+         grid.contains(grid.key_of(Vec3f(frame.T_world_camera.translation().cast<float>()))) &&
          rotation_error < kRotationSlack && camera.config.range_min_m > 0.0 &&
          reach_m(frame, camera) < kOctomapKeys * grid.resolution_m() &&
          kMarginsPerVoxel * margin_m(frame, camera) < grid.resolution_m() &&

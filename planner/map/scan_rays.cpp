@@ -34,6 +34,27 @@ std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {
   return points;
 }
 
+namespace {
+
+/// The whole directions of a row whose rays part into no rows and columns, and the range along each
+/// for a depth of 1. Of pixels without a ray: none.
+void set_lens_row(const Lens& lens, const Eigen::Matrix3d& R, std::ptrdiff_t first,
+                  Eigen::MatrixX3d& across, Eigen::VectorXf& range) {
+  for (Eigen::Index u = 0; u < range.size(); ++u) {
+    const Eigen::Vector2f& xy = lens.directions()[static_cast<std::size_t>(first + u)];
+    Vec3 along = xy.cast<double>().homogeneous();
+    range[u] = lens.is_radial() ? static_cast<float>(along.norm()) : 1.0F;
+    if (lens.is_radial()) along.normalize();
+    if (std::isnan(xy.x())) {
+      along.setZero();
+      range[u] = std::numeric_limits<float>::quiet_NaN();
+    }
+    across.row(u) = R * along;
+  }
+}
+
+}  // namespace
+
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
                         FrameRays& rays, NoReturn no_return) {
   constexpr float kNone = std::numeric_limits<float>::infinity();
@@ -58,18 +79,28 @@ void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, doub
   Eigen::MatrixX3d across(width + kPadding, 3);  // world part of each column
   for (int a = 0; a < 3; ++a) {
     rays.end_m[a].resize(pixels);
-    for (int u = 0; u < width; ++u) across(u, a) = R(a, 0) * camera.ray_camera(u, 0).x();
+    for (int u = 0; u < width && !camera.lens; ++u) {
+      across(u, a) = R(a, 0) * camera.ray_camera(u, 0).x();
+    }
     row.across[a] = across.col(a).data();
     row.origin_m[a] = origin_m[a];
   }
+  Eigen::VectorXf range_m(width);  // of a row, along a lens's rays
   for (int v = 0; v < height; ++v) {
     const std::ptrdiff_t first = std::ptrdiff_t{v} * width;
-    const Vec3 down = R.col(1) * static_cast<double>(camera.ray_camera(0, v).y()) + R.col(2);
+    const Vec3 down =
+        camera.lens ? Vec3::Zero()
+                    : Vec3(R.col(1) * static_cast<double>(camera.ray_camera(0, v).y()) + R.col(2));
     for (int a = 0; a < 3; ++a) {
       row.down[a] = down[a];
       row.end_m[a] = rays.end_m[a].data() + first;
     }
     row.depth_m = frame.depth_m.data() + first;
+    if (camera.lens) {
+      set_lens_row(*camera.lens, R, first, across, range_m);
+      for (int u = 0; u < width; ++u) range_m[u] *= row.depth_m[u];
+      row.depth_m = range_m.data();
+    }
     row.kind = rays.kind.data() + first;
     row.inverse_depth = rays.inverse_depth.data() + std::ptrdiff_t{v} * rays.row_stride;
     frame_kernels().rays_of_row(row);

@@ -114,8 +114,11 @@ std::vector<ViewPose> lay_lawnmower(const RouteConfig& config, const PlannerMode
   if (obstacles_m.empty()) return {};
   const CameraModel& camera = model.cameras.front();
   const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
-  const double column_m = across_m * std::tan(0.5 * camera.config.fov_x_rad);
-  const double row_m = across_m * std::tan(0.5 * camera.config.fov_y_rad);
+  // beside a sphere's rim there is nothing in range
+  const double beside = camera.config.range_max_m / config.standoff_m;
+  const double most = camera.is_radial() ? std::sqrt(std::max(0.01, beside * beside - 1.0)) : 1e9;
+  const double column_m = across_m * std::min(most, 0.5 * camera.sight.sizes().x());
+  const double row_m = across_m * std::min(most, 0.5 * camera.sight.sizes().y());
   const Vec3 margin_m = Vec3::Constant(config.standoff_m);
   const Box3 around_m = Box3(structure_m.min() - margin_m, structure_m.max() + margin_m)
                             .intersection(model.navigation_m);

@@ -10,6 +10,7 @@ namespace gnbv {
 namespace {
 
 constexpr double kPixel_rad = deg_to_rad(0.6);
+constexpr double kMostPixels = 640.0;  // along a side of what a wide lens sees: coarser than that
 // In the edge of a small voxel: the radius of a disc, 0.9 of the discs' spacing, leaves no holes;
 // what lies no deeper behind a disc is the disc's own surface (facts/tour.md, section 1: splats of
 // 0.09 m with a bias of 0.08 m for a spacing of 0.1 m).
@@ -83,18 +84,31 @@ std::vector<const CellBlocks::Block*> CellBlocks::near(const Vec3& p_world_m,
   return found;
 }
 
+namespace {
+
+/// Of an image around the axis that holds all that the camera sees.
+Eigen::Vector2d half_sight(const CameraModel& camera) {
+  return camera.sight.max().cwiseMax(-camera.sight.min());
+}
+
+}  // namespace
+
 double camera_reach_m(const CameraModel& camera) {
   const CameraConfig& c = camera.config;
-  const double across = std::hypot(std::tan(0.5 * c.fov_x_rad), std::tan(0.5 * c.fov_y_rad));
+  if (camera.is_radial()) return return_end_m(c) + c.p_body_m.norm();
+  const Eigen::Vector2d most = half_sight(camera);
+  const double across = std::hypot(most.x(), most.y());
   return return_end_m(c) * std::sqrt(1.0 + across * across) + c.p_body_m.norm();
 }
 
 void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camera) {
   const CameraConfig& c = camera.config;
-  const double half_x = std::tan(0.5 * c.fov_x_rad);
-  const double half_y = std::tan(0.5 * c.fov_y_rad);
-  width_ = static_cast<int>(std::ceil(2.0 * half_x / kPixel_rad));
-  height_ = static_cast<int>(std::ceil(2.0 * half_y / kPixel_rad));
+  const double half_x = half_sight(camera).x();
+  const double half_y = half_sight(camera).y();
+  const double most = std::max(half_x, half_y);
+  const double pixel = camera.lens ? std::max(kPixel_rad, 2.0 * most / kMostPixels) : kPixel_rad;
+  width_ = static_cast<int>(std::ceil(2.0 * half_x / pixel));
+  height_ = static_cast<int>(std::ceil(2.0 * half_y / pixel));
   cx_ = 0.5F * static_cast<float>(width_);
   cy_ = 0.5F * static_cast<float>(height_);
   fx_ = cx_ / static_cast<float>(half_x);
@@ -194,7 +208,10 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
       const Patch& patch = scene.patches[id];
       if (patch.missing <= 0.0F) continue;
       const Vec3f p = to_camera(patch.target_m);
-      if (!is_in_image(p, 0.0F) || p.z() < range_min_m) continue;
+      if (!is_in_image(p, 0.0F)) continue;
+      if (camera.lens && !camera.lens->sees(p.cast<double>())) continue;
+      const float range_m = camera.is_radial() ? p.norm() : p.z();
+      if (range_m < range_min_m || range_m > range_max_m_) continue;
       const float cosine = patch.normal.dot(origin_world_m_ - patch.target_m) / p.norm();
       if (cosine < cos_min || !is_before(p, cosine, bias_m)) continue;
       seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine))});

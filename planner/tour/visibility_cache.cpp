@@ -45,7 +45,8 @@ void for_each_direction(const CameraModel& camera, const Vec3& normal, const Use
     const double off_rad = std::fabs(wrap_angle_rad(bearing_rad - normal_bearing_rad));
     if (has_bearing && off_rad > kMostOff_rad) continue;
     for (const double across : kAcross) {
-      const double up_rad = down_rad + 0.5 * across * camera.config.fov_y_rad;
+      const double up_rad =
+          down_rad + 0.5 * across * camera.sight_rad.sizes().y() + camera.sight_rad.center().y();
       const Vec3 direction(std::cos(up_rad) * std::cos(bearing_rad),
                            std::cos(up_rad) * std::sin(bearing_rad), std::sin(up_rad));
       if (direction.dot(normal) >= kLeastCosine) use(direction);

@@ -108,22 +108,53 @@ std::size_t ViewRays::count() const {
   return rays;
 }
 
+namespace {
+
+/// Ends of a radial lens's rays on the sphere at maximum range, one a voxel's face of it: ring by
+/// ring around the axis.
+std::vector<Vec3> ring_ends_camera_m(const CameraModel& camera, double resolution_m) {
+  const double range_m = camera.config.range_max_m;
+  const double step_rad = resolution_m / range_m;
+  const double last_rad = std::atan(camera.lens->radius_max());
+  std::vector<Vec3> ends;
+  for (double off_rad = 0.5 * step_rad; off_rad <= last_rad; off_rad += step_rad) {
+    const double around = 2.0 * kPi * std::sin(off_rad) / step_rad;
+    const int count = std::max(1, static_cast<int>(std::lround(around)));
+    for (int i = 0; i < count; ++i) {
+      const double bearing_rad = 2.0 * kPi * i / count;
+      const Vec3 along(std::sin(off_rad) * std::cos(bearing_rad),
+                       std::sin(off_rad) * std::sin(bearing_rad), std::cos(off_rad));
+      if (camera.lens->sees(along)) ends.push_back(range_m * along);
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
 ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_m) {
   constexpr int kTile = 4;
   ViewRays rays;
   rays.resolution_m = resolution_m;
   for (const CameraModel& model : cameras) {
     const double depth_m = model.config.range_max_m;
-    const auto points_across = [&](double fov_rad) {
-      const double half_m = depth_m * std::tan(0.5 * fov_rad);
+    const auto points_across = [&](double span) {
+      const double half_m = depth_m * (0.5 * span);
       return static_cast<int>(2.0 * half_m / resolution_m) + 1;
     };
-    const int columns = points_across(model.config.fov_x_rad);
-    const int rows = points_across(model.config.fov_y_rad);
+    const Eigen::Vector2d middle_m = depth_m * model.sight.center();
+    const int columns = points_across(model.sight.sizes().x());
+    const int rows = points_across(model.sight.sizes().y());
     // centred: the lattice rarely fits the plane exactly
+    const auto end_camera_m = [&](int column, int row) -> Vec3 {
+      return {(column - 0.5 * (columns - 1)) * resolution_m + middle_m.x(),
+              (row - 0.5 * (rows - 1)) * resolution_m + middle_m.y(), depth_m};
+    };
     const auto end_body_m = [&](int column, int row) -> Vec3 {
-      return model.T_body_camera * Vec3((column - 0.5 * (columns - 1)) * resolution_m,
-                                        (row - 0.5 * (rows - 1)) * resolution_m, depth_m);
+      return model.T_body_camera * end_camera_m(column, row);
+    };
+    const auto add = [&](const Vec3& end_m) {
+      for (int a = 0; a < 3; ++a) rays.end_body_m[a].push_back(end_m[a]);
     };
     ViewRays::Camera camera;
     camera.origin_body_m = model.T_body_camera.translation();
@@ -131,17 +162,22 @@ ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_
                              end_body_m(columns - 1, rows - 1)};
     camera.pyramid_m3 = resolution_m * resolution_m * depth_m / 3.0;
     camera.first = rays.end_body_m[0].size();
-    camera.count = static_cast<std::size_t>(columns) * rows;
-    for (int top = 0; top < rows; top += kTile) {
+    if (model.is_radial()) {
+      for (const Vec3& end_m : ring_ends_camera_m(model, resolution_m)) {
+        add(model.T_body_camera * end_m);
+      }
+    }
+    for (int top = 0; top < rows && !model.is_radial(); top += kTile) {
       for (int left = 0; left < columns; left += kTile) {
         for (int row = top; row < std::min(top + kTile, rows); ++row) {
           for (int column = left; column < std::min(left + kTile, columns); ++column) {
-            const Vec3 end_m = end_body_m(column, row);
-            for (int a = 0; a < 3; ++a) rays.end_body_m[a].push_back(end_m[a]);
+            if (model.lens && !model.lens->sees(end_camera_m(column, row))) continue;
+            add(end_body_m(column, row));
           }
         }
       }
     }
+    camera.count = rays.end_body_m[0].size() - camera.first;
     const std::size_t padded = (camera.count + kPadding - 1) / kPadding * kPadding;
     for (std::vector<double>& column : rays.end_body_m) column.resize(camera.first + padded, 0.0);
     rays.cameras.push_back(camera);

@@ -183,7 +183,7 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   const auto expect_all = [&](const auto&... configs) { (expect(configs), ...); };
   expect_all(MeshFileConfig{}, RotorMount{}, AirframeParameters{}, PowerParameters{},
              EstimateConfig{}, VehicleConfig{}, GuidanceConfig{}, WindConfig{}, GnssOutage{},
-             RtkParameters{}, GimbalConfig{}, DepthNoiseConfig{}, CameraConfig{}, LidarConfig{},
+             RtkParameters{}, GimbalConfig{}, DepthNoiseConfig{}, DistortionConfig{}, LidarConfig{},
              OccupancyConfig{}, CloudConfig{}, ProfilingConfig{}, AgvsConfig{}, FvsConfig{},
              FrontierConfig{}, ValidityConfig{}, PathSearchConfig{}, UtilityConfig{},
              VolumeWeights{}, ShadowConfig{}, UserFunctionConfig{}, TourConfig{}, SymmetryConfig{},
@@ -192,6 +192,7 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
   expect(AutopilotParameters{});
   // the commander's others are PX4 parameters
   EXPECT_EQ(counter.counts.extract(typeid(CommanderParameters)).mapped(), 1U);
+  expect(CameraConfig{}, 1);                          // calibration fills other fields
   expect(StartConfig{}, 1);                           // pose is two keys
   expect(NoFlyConfig{}, 1);                           // a box is two keys
   expect(Scenario{}, -1);                             // placed_at is no key

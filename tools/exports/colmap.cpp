@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -16,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr const char* kColmapReadme =
     R"(A gnbv run as a COLMAP model with known poses.
 
-sparse/0/cameras.txt   PINHOLE fx fy cx cy in pixels; the centre of the first pixel is (0.5, 0.5)
+sparse/0/cameras.txt   PINHOLE, OPENCV, FULL_OPENCV or OPENCV_FISHEYE with COLMAP's parameters of
+                       it in pixels; the centre of the first pixel is (0.5, 0.5)
 sparse/0/images.txt    world to camera (x right, y down, z forward), world ENU in metres
 sparse/0/points3D.txt  points of the run's cloud, with the images whose depth shows them
 images/CAMERA_N.png    colour of view N, all in one folder, where the readers of Gaussian splatting
@@ -29,7 +32,7 @@ reprojection error is 0. To work with features instead:
 
   colmap feature_extractor --database_path d.db --image_path images \
     --image_list_path cameras/1.txt --ImageReader.single_camera 1 \
-    --ImageReader.camera_model PINHOLE
+    --ImageReader.camera_model PINHOLE    (or as cameras.txt says)
   colmap exhaustive_matcher --database_path d.db
   mkdir triangulated && colmap point_triangulator --database_path d.db --image_path images \
     --input_path sparse/0 --output_path triangulated --clear_points 1
@@ -66,12 +69,30 @@ std::vector<std::ptrdiff_t> camera_ids(const FrameRecord& frames) {
   return ids;
 }
 
+struct ColmapModel {
+  const char* name;
+  std::vector<double> coefficients;
+};
+
+ColmapModel colmap_model(const FrameCamera& camera) {
+  need_no_skew(camera, "COLMAP");
+  std::vector<double> all = camera.coefficients();
+  if (camera.distortion() == Distortion::none) return {"PINHOLE", {}};
+  if (camera.distortion() == Distortion::kannala_brandt) return {"OPENCV_FISHEYE", all};
+  const bool is_short = std::all_of(all.begin() + 4, all.end(), [](double k) { return k == 0.0; });
+  if (is_short) all.resize(4);
+  return {is_short ? "OPENCV" : "FULL_OPENCV", all};
+}
+
 std::string cameras_text(const FrameRecord& frames, const std::vector<std::ptrdiff_t>& ids) {
-  std::string text = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]: fx, fy, cx, cy\n";
+  std::string text =
+      "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]: fx, fy, cx, cy, then the distortion's\n";
   for (std::size_t i = 0; i < frames.cameras.size(); ++i) {
     const FrameCamera& c = frames.cameras[i];
-    text += fmt::format("{} PINHOLE {} {} {} {} {} {}\n", ids[i], c.width_px, c.height_px, c.fx_px,
-                        c.fy_px, c.cx_px, c.cy_px);
+    const auto [model, coefficients] = colmap_model(c);
+    text += fmt::format("{} {} {} {} {} {} {} {}{}{}\n", ids[i], model, c.width_px, c.height_px,
+                        c.fx_px, c.fy_px, c.cx_px, c.cy_px, coefficients.empty() ? "" : " ",
+                        fmt::join(coefficients, " "));
   }
   return text;
 }

@@ -167,6 +167,12 @@ std::string file_word(const FrameCamera& camera) {
       camera.name));
 }
 
+void need_no_skew(const FrameCamera& camera, std::string_view program) {
+  if (camera.skew_px() == 0.0) return;
+  throw BadInput(fmt::format("camera '{}': {} has no camera with skew_px = {}; --format plain has",
+                             camera.name, program, camera.skew_px()));
+}
+
 std::string image_name(const FrameRecord& frames, const RecordedFrame& frame) {
   return fmt::format("{}_{}.png", frame_number(frame), file_word(frames.cameras[frame.camera]));
 }

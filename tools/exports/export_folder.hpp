@@ -32,6 +32,9 @@ std::string frame_number(const RecordedFrame& frame);
 /// The camera's name as part of file names. Throws BadInput when it cannot be one.
 std::string file_word(const FrameCamera& camera);
 
+/// Throws BadInput for a camera with skewed rows, which that program's cameras do not have.
+void need_no_skew(const FrameCamera& camera, std::string_view program);
+
 /// "000007_rgbd.png": of a frame's images, where one folder holds those of all cameras.
 std::string image_name(const FrameRecord& frames, const RecordedFrame& frame);
 

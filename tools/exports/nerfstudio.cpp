@@ -39,6 +39,35 @@ Eigen::Matrix4d opengl_pose(const Isometry& T_world_camera) {
   return T_world_camera.matrix() * Eigen::Vector4d(1, -1, -1, 1).asDiagonal();
 }
 
+/// Said once for a run with one camera, else of each frame.
+Json distortion_of(const FrameCamera& camera) {
+  const DistortionConfig d = camera.lens ? camera.lens->distortion() : DistortionConfig{};
+  return {{"k1", d.k1}, {"k2", d.k2}, {"k3", d.k3}, {"k4", d.k4}, {"p1", d.p1}, {"p2", d.p2}};
+}
+
+/// One for all cameras; throws BadInput where there is none.
+const char* camera_model(const FrameRecord& frames) {
+  const auto is_fisheye = [](const FrameCamera& c) {
+    return c.distortion() == Distortion::kannala_brandt;
+  };
+  for (const FrameCamera& c : frames.cameras) {
+    need_no_skew(c, "nerfstudio");
+    const DistortionConfig d = c.lens ? c.lens->distortion() : DistortionConfig{};
+    if (!is_fisheye(c) && (d.k4 != 0.0 || d.k5 != 0.0 || d.k6 != 0.0)) {
+      throw BadInput(fmt::format(
+          "camera '{}': nerfstudio has no rational distortion (k4 to k6); --format colmap has",
+          c.name));
+    }
+    if (is_fisheye(c) != is_fisheye(frames.cameras.front())) {
+      throw BadInput(
+          fmt::format("cameras '{}' and '{}': transforms.json has one model for all, and "
+                      "only one of them is a fisheye",
+                      frames.cameras.front().name, c.name));
+    }
+  }
+  return is_fisheye(frames.cameras.front()) ? "OPENCV_FISHEYE" : "OPENCV";
+}
+
 double common_depth_scale_m(const FrameRecord& frames) {
   const double scale_m = frames.cameras.front().depth_scale_m;
   for (const FrameCamera& c : frames.cameras) {
@@ -53,7 +82,8 @@ double common_depth_scale_m(const FrameRecord& frames) {
 }  // namespace
 
 void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const fs::path& folder) {
-  Json json = {{"camera_model", "OPENCV"}, {"k1", 0.0}, {"k2", 0.0}, {"p1", 0.0}, {"p2", 0.0}};
+  Json json = {{"camera_model", camera_model(frames)}};
+  if (frames.cameras.size() == 1) json.update(distortion_of(frames.cameras[0]));
   json["applied_transform"] = matrix_rows(Eigen::Matrix4d::Identity(), 3);
   json["depth_unit_scale_factor"] = common_depth_scale_m(frames);
   json["ply_file_path"] = "points.ply";
@@ -71,6 +101,7 @@ void write_nerfstudio(const FrameRecord& frames, const SparseModel& model, const
          {"cx", c.cx_px},
          {"cy", c.cy_px},
          {"transform_matrix", matrix_rows(opengl_pose(frame.T_world_camera), 4)}});
+    if (frames.cameras.size() > 1) json["frames"].back().update(distortion_of(c));
   }
   link_images(frames, folder);
   write_cloud_ply(model.points_world_m, folder / "points.ply", {.colours = model.colours});

@@ -114,7 +114,9 @@ std::string intrinsics_text(const RunRecord& record, const FrameRecord& frames) 
       T_body_camera.push_back({row[0], row[1], row[2], row[3]});
     }
     cameras.push_back({{"name", config.name},
-                       {"model", "pinhole"},
+                       {"model", config.distortion.model == Distortion::none
+                                     ? "pinhole"
+                                     : distortion_name(config.distortion.model)},
                        {"width_px", config.width_px},
                        {"height_px", config.height_px},
                        {"fx_px", camera.fx_px},
@@ -125,6 +127,13 @@ std::string intrinsics_text(const RunRecord& record, const FrameRecord& frames) 
                        {"range_max_m", config.range_max_m},
                        {"T_body_camera", T_body_camera}});
     const auto seen = std::ranges::find(frames.cameras, config.name, &FrameCamera::name);
+    if (config.skew_px != 0.0) cameras.back()["skew_px"] = config.skew_px;
+    const std::vector<double> coefficients = coefficients_of(config.distortion);
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      const bool is_fisheye = coefficients.size() == 4;
+      cameras.back()[is_fisheye ? fmt::format("k{}", i + 1) : kCoefficients[i].first] =
+          coefficients[i];
+    }
     if (seen != frames.cameras.end()) cameras.back()["depth_scale_m"] = seen->depth_scale_m;
   }
   return Json{{"cameras", cameras}}.dump(2) + "\n";

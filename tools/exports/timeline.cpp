@@ -31,9 +31,19 @@ Json pose_row(double time_s, const Isometry& T) {
 template <typename Camera>
 Json camera_json(const Camera& camera, const std::string& name, int width_px, int height_px,
                  Json frames) {
-  return {{"name", name},          {"width_px", width_px},       {"height_px", height_px},
-          {"fx_px", camera.fx_px}, {"fy_px", camera.fy_px},      {"cx_px", camera.cx_px},
-          {"cy_px", camera.cy_px}, {"frames", std::move(frames)}};
+  const auto& lens = camera.lens;
+  const DistortionConfig distortion = lens ? lens->distortion() : DistortionConfig{};
+  return {{"name", name},
+          {"width_px", width_px},
+          {"height_px", height_px},
+          {"fx_px", camera.fx_px},
+          {"fy_px", camera.fy_px},
+          {"cx_px", camera.cx_px},
+          {"cy_px", camera.cy_px},
+          {"skew_px", lens ? lens->pinhole().skew_px : 0.0},
+          {"distortion", distortion_name(distortion.model)},
+          {"coefficients", coefficients_of(distortion)},
+          {"frames", std::move(frames)}};
 }
 
 Json cameras_of_frames(const FrameRecord& record) {

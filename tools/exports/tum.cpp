@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -123,9 +125,13 @@ std::size_t write_camera(const RunRecord& record, const FrameRecord& frames, std
   if (times_s.empty()) return 0;
   const FrameCamera& c = frames.cameras[camera];
   const CameraModel model = camera_named(record, c.name);
-  write_file_atomically(folder / "calibration.txt",
-                        fmt::format("# fx fy cx cy width height\n{} {} {} {} {} {}\n", c.fx_px,
-                                    c.fy_px, c.cx_px, c.cy_px, c.width_px, c.height_px));
+  std::string calibration = fmt::format("# fx fy cx cy width height\n{} {} {} {} {} {}\n", c.fx_px,
+                                        c.fy_px, c.cx_px, c.cy_px, c.width_px, c.height_px);
+  if (c.lens) {
+    calibration += fmt::format("# skew {}; {}, coefficients in OpenCV's order: {}\n", c.skew_px(),
+                               distortion_name(c.distortion()), fmt::join(c.coefficients(), " "));
+  }
+  write_file_atomically(folder / "calibration.txt", calibration);
   write_file_atomically(folder / "rgb.txt", rgb);
   write_file_atomically(folder / "depth.txt", depth);
   write_file_atomically(folder / "associations.txt", associations);

@@ -40,10 +40,10 @@ double steep_tan(double rad) {
 struct NorthernView {
   explicit NorthernView(const CameraConfig& camera)
       : range_m(return_end_m(camera)),
-        tan_side(std::tan(0.5 * camera.fov_x_rad)),
-        tan_up(steep_tan(0.5 * camera.fov_y_rad -
+        tan_side(0.5 * make_camera_model(camera).sight.sizes().x()),
+        tan_up(steep_tan(-make_camera_model(camera).sight_rad.min().y() -
                          (camera.gimbal ? camera.gimbal->min_rad : camera.pitch_rad))),
-        tan_down(steep_tan(0.5 * camera.fov_y_rad +
+        tan_down(steep_tan(make_camera_model(camera).sight_rad.max().y() +
                            (camera.gimbal ? camera.gimbal->max_rad : camera.pitch_rad))) {}
 
   bool has(const Vec3& to_m) const {

@@ -188,6 +188,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   const ViewPose start = start_pose(scenario, scene);
   need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
   need_way_up(scenario, world, scene, start);
+  const std::string moved = moved_start_note(scenario, start);
+  if (!moved.empty() && !options.quiet) say(moved);
   if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
     say(warning);
   }

@@ -50,6 +50,20 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
                                                : "an obstacle, the terrain or a no_fly box"));
 }
 
+std::string moved_start_note(const Scenario& scenario, const ViewPose& start) {
+  const ViewPose& asked = scenario.start.pose;
+  if (start.p_world_m == asked.p_world_m && start.yaw_rad == wrap_angle_rad(asked.yaw_rad)) {
+    return "";
+  }
+  const auto text = [](const ViewPose& pose) {
+    const Vec3& p_m = pose.p_world_m;
+    return fmt::format("[{:.2f}, {:.2f}, {:.2f}], yaw {:.1f} deg", p_m.x(), p_m.y(), p_m.z(),
+                       rad_to_deg(pose.yaw_rad));
+  };
+  return fmt::format("start: {}: seed {} moved it by start.jitter_m and jitter_yaw_deg from {}",
+                     text(start), scenario.seed, text(asked));
+}
+
 void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,
                   const ViewPose& start, int threads) {
   const ProfilingMethod profiling = scenario.planner.profiling.method;

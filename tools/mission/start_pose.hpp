@@ -13,6 +13,10 @@ namespace gnbv {
 /// pose is found.
 ViewPose start_pose(const Scenario& scenario, const RayScene& scene);
 
+/// "the start: [0.10, -2.80, 1.20] ..." for one that start.jitter_m or jitter_yaw_deg moved, which
+/// else nobody would see; "" for one that is where the scenario says.
+std::string moved_start_note(const Scenario& scenario, const ViewPose& start);
+
 /// Throws BadInput when the structure encloses the start, so that a profile around the structure
 /// cannot be flown. A workspace that lies within the structure has no outside: all is well.
 void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& structure_m,

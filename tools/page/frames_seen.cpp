@@ -47,8 +47,10 @@ void add_points(const RecordedFrame& frame, const FrameCamera& camera, const Fra
       const std::uint16_t steps = depth.values[static_cast<std::size_t>(y * depth.width_px + x)];
       if (steps == 0) continue;
       const double z_m = camera.depth_scale_m * steps;
-      const Vec3 p_camera_m = {(x + 0.5 - camera.cx_px) / camera.fx_px * z_m,
-                               (y + 0.5 - camera.cy_px) / camera.fy_px * z_m, z_m};
+      Eigen::Vector2d xy((x + 0.5 - camera.cx_px) / camera.fx_px,
+                         (y + 0.5 - camera.cy_px) / camera.fy_px);
+      if (camera.lens) xy = camera.lens->direction_at(x + 0.5, y + 0.5).value_or(xy);
+      const Vec3 p_camera_m = z_m * xy.homogeneous();
       const Vec3 p_world_m = frame.T_world_camera * p_camera_m;
       if (p_world_m.z() < floor_z_m) continue;
       out.points_world_m.push_back(p_world_m.cast<float>());

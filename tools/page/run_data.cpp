@@ -74,6 +74,12 @@ page::Views views_of(const RunRecord& record, page::Arrays& arrays) {
   return views;
 }
 
+/// A pyramid's that the page can draw: around all that the camera sees, if that is no more.
+double shown_fov_rad(const CameraConfig& config, int axis) {
+  constexpr double kWidest_rad = deg_to_rad(150.0);
+  return std::min(kWidest_rad, make_camera_model(config).sight_rad.sizes()[axis]);
+}
+
 page::Figures figures_of(const RunFigures& f, page::Arrays& arrays) {
   std::vector<double> curve;
   for (const auto& sizes : f.curve.coverage) curve.push_back(sizes[0]);
@@ -153,8 +159,8 @@ page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
   run.views_begin_s = record.views_begin_s;
   for (const CameraConfig& config : scenario.cameras) {
     run.cameras.push_back({.name = config.name,
-                           .fov_x = config.fov_x_rad,
-                           .fov_y = config.fov_y_rad,
+                           .fov_x = shown_fov_rad(config, 0),
+                           .fov_y = shown_fov_rad(config, 1),
                            .range_m = config.range_max_m,
                            .T_body_camera = matrix(make_camera_model(config).T_body_camera)});
   }

@@ -82,15 +82,23 @@ RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cam
 }
 
 FrameCamera frame_camera_of(const CameraModel& camera) {
-  return {camera.config.name, camera.config.width_px, camera.config.height_px,
-          camera.fx_px,       camera.fy_px,           camera.cx_px,
-          camera.cy_px};
+  FrameCamera frame = {camera.config.name, camera.config.width_px, camera.config.height_px,
+                       camera.fx_px,       camera.fy_px,           camera.cx_px,
+                       camera.cy_px};
+  if (camera.lens && !camera.lens->is_pinhole()) frame.lens = camera.lens;
+  return frame;
 }
 
 Json json_of(const FrameCamera& camera) {
   Json json = {
       {"name", camera.name}, {"width_px", camera.width_px}, {"height_px", camera.height_px}};
   for (const auto& [name, number] : kCameraNumbers) json[name] = camera.*number;
+  if (!camera.lens) return json;
+  const DistortionConfig& distortion = camera.lens->distortion();
+  json["skew_px"] = camera.skew_px();
+  json["distortion"] = {{"model", distortion_name(distortion.model)}};
+  for (const auto& [name, member] : kCoefficients) json["distortion"][name] = distortion.*member;
+  json["distortion"]["max_angle_rad"] = distortion.max_angle_rad;
   return json;
 }
 
@@ -99,6 +107,15 @@ FrameCamera camera_of(const Json& json) {
   for (const auto& [name, number] : kCameraNumbers) c.*number = json.at(name);
   const bool is_camera =
       c.width_px > 0 && c.height_px > 0 && c.fx_px > 0.0 && c.fy_px > 0.0 && c.depth_scale_m > 0.0;
+  if (is_camera && json.contains("distortion")) {
+    const Json& given = json.at("distortion");
+    DistortionConfig distortion;
+    distortion.model = distortion_named(given.at("model").get<std::string>());
+    for (const auto& [name, member] : kCoefficients) distortion.*member = given.at(name);
+    distortion.max_angle_rad = given.at("max_angle_rad");
+    const Lens::Pinhole pinhole = {c.fx_px, c.fy_px, c.cx_px, c.cy_px, json.at("skew_px")};
+    c.lens = std::make_shared<const Lens>(c.width_px, c.height_px, pinhole, distortion);
+  }
   if (is_camera) return c;
   throw BadInput(
       fmt::format("camera '{}': sizes, focal lengths and depth scale must be positive", c.name));

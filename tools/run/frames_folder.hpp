@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@
 namespace gnbv {
 
 /// Writes ITERATION_CAMERA.rgb.png (sRGB) and ITERATION_CAMERA.depth.png (16 bits, millimetres
-/// along the optical axis, 0 where there is none) of each view, cameras.json (pinhole intrinsics in
-/// pixels, pixel centres at half pixels) and poses.csv, which grows with the views (T_world_camera
-/// as believed: metres, unit quaternion; optical frame, world ENU). The others appear by rename.
+/// along the optical axis, 0 where there is none) of each view, cameras.json (intrinsics in pixels,
+/// pixel centres at half pixels; skew and distortion where there are any) and poses.csv, which
+/// grows with the views (T_world_camera as believed: metres, unit quaternion; optical frame, world
+/// ENU). The others appear by rename.
 class FramesFolder {
  public:
   /// Makes the folder of the run and writes cameras.json. Throws BadInput naming it when that
@@ -35,7 +37,7 @@ class FramesFolder {
 /// The names of a view's images in the folder, without `.rgb.png` and `.depth.png`.
 std::string frame_stem(std::size_t iteration, const std::string& camera);
 
-/// Pinhole without distortion; pixel (0, 0) is top left, its centre at (0.5, 0.5).
+/// Pixel (0, 0) is top left, its centre at (0.5, 0.5).
 struct FrameCamera {
   std::string name;
   int width_px = 0;
@@ -44,7 +46,14 @@ struct FrameCamera {
   double fy_px = 0.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
-  double depth_scale_m = 0.001;  // metres a step of the depth image
+  double depth_scale_m = 0.001;           // metres a step of the depth image
+  std::shared_ptr<const Lens> lens = {};  // nothing: a pinhole, neither skewed nor distorted
+
+  Distortion distortion() const { return lens ? lens->distortion().model : Distortion::none; }
+  double skew_px() const { return lens ? lens->pinhole().skew_px : 0.0; }
+  std::vector<double> coefficients() const {
+    return lens ? coefficients_of(lens->distortion()) : std::vector<double>{};
+  }
 };
 
 struct RecordedFrame {

@@ -227,15 +227,17 @@ void add_chosen_view(const RunRecord& record, const World& world, const Belief& 
     const Isometry T_world_camera =
         frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, 1.0, {}).T_world_camera;
     const Vec3 eye = T_world_camera.translation();
+    const CameraModel model = make_camera_model(camera);
     for (int row = 0; row < kRaysDown; ++row) {
       for (int column = 0; column < kRaysAcross; ++column) {
-        const double x = 2.0 * (column + 0.5) / kRaysAcross - 1.0;
-        const double y = 2.0 * (row + 0.5) / kRaysDown - 1.0;
+        const Eigen::Vector2d share((column + 0.5) / kRaysAcross, (row + 0.5) / kRaysDown);
         const Vec3 ahead =
-            Vec3(x * std::tan(0.5 * camera.fov_x_rad), y * std::tan(0.5 * camera.fov_y_rad), 1.0);
+            (model.sight.min() + share.cwiseProduct(model.sight.sizes())).homogeneous();
+        if (!model.has_in_image(ahead)) continue;
         const Vec3 along = T_world_camera.linear() * ahead.normalized();
         const double length_m =
-            std::min(camera.range_max_m * ahead.norm(), exit_m(near_m, eye, along));
+            std::min(camera.range_max_m * (model.is_radial() ? 1.0 : ahead.norm()),
+                     exit_m(near_m, eye, along));
         add_ray(belief.grid, eye, along, length_m, unit_m, scene);
       }
     }

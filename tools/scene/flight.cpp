@@ -127,10 +127,10 @@ void add_view(std::span<const CameraConfig> cameras, const ViewPose& view, const
 FrustumItem frustum_of(const CameraConfig& camera, const Isometry& T_world_body,
                        double gimbal_pitch_rad, double length_m, const Rgb& colour) {
   FrustumItem frustum;
-  frustum.T_world_camera =
-      T_world_body * turned(make_camera_model(camera), gimbal_pitch_rad).T_body_camera;
-  frustum.fov_x_rad = camera.fov_x_rad;
-  frustum.fov_y_rad = camera.fov_y_rad;
+  const CameraModel model = turned(make_camera_model(camera), gimbal_pitch_rad);
+  frustum.T_world_camera = T_world_body * model.T_body_camera;
+  frustum.sight = model.sight;
+  frustum.is_radial = model.is_radial();
   frustum.length_m = length_m;
   frustum.colour = colour;
   return frustum;

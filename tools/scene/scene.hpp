@@ -52,11 +52,11 @@ struct DotsItem {
   float radius_m = 0.02F;
 };
 
-/// The pyramid that a camera sees, out to `length_m` along its axis.
+/// The pyramid around what a camera sees, out to `length_m` along its axis.
 struct FrustumItem {
   Isometry T_world_camera = Isometry::Identity();  // optical frame
-  double fov_x_rad = deg_to_rad(60.0);
-  double fov_y_rad = deg_to_rad(45.0);
+  Eigen::AlignedBox2d sight = {Eigen::Vector2d(-0.577, -0.414), Eigen::Vector2d(0.577, 0.414)};
+  bool is_radial = false;  // its corners are length_m away
   double length_m = 1.0;
   float edge_radius_m = 0.02F;
   Rgb colour = {0.5F, 0.5F, 0.5F};
@@ -65,12 +65,14 @@ struct FrustumItem {
 
 /// Where its pyramid ends: around its axis.
 inline std::array<Vec3, 4> far_corners_m(const FrustumItem& item) {
-  const double x = item.length_m * std::tan(0.5 * item.fov_x_rad);
-  const double y = item.length_m * std::tan(0.5 * item.fov_y_rad);
-  const auto corner = [&](double sx, double sy) -> Vec3 {
-    return item.T_world_camera * Vec3(sx * x, sy * y, item.length_m);
+  const auto corner = [&](double x, double y) -> Vec3 {
+    const Vec3 along = Vec3(x, y, 1.0) / (item.is_radial ? std::hypot(x, y, 1.0) : 1.0);
+    return item.T_world_camera * Vec3(item.length_m * along);
   };
-  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  const Eigen::Vector2d low = item.sight.min();
+  const Eigen::Vector2d high = item.sight.max();
+  return {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()),
+          corner(low.x(), high.y())};
 }
 
 /// A level plane with grid lines that fades out around the scene; it receives shadows.

@@ -73,6 +73,13 @@ bool may_show(const TextureView& view, const Block& block) {
     return (across_m - slope * c_m.z()) / std::hypot(1.0, slope);
   };
   const FrameCamera& k = view.camera;
+  if (k.lens) {
+    const Eigen::AlignedBox2d& sight = k.lens->sight();
+    return outside_m(sight.max().x(), c_m.x()) <= r_m &&
+           outside_m(-sight.min().x(), -c_m.x()) <= r_m &&
+           outside_m(sight.max().y(), c_m.y()) <= r_m &&
+           outside_m(-sight.min().y(), -c_m.y()) <= r_m;
+  }
   return outside_m((k.width_px - k.cx_px) / k.fx_px, c_m.x()) <= r_m &&
          outside_m(k.cx_px / k.fx_px, -c_m.x()) <= r_m &&
          outside_m((k.height_px - k.cy_px) / k.fy_px, c_m.y()) <= r_m &&

@@ -25,7 +25,7 @@ class Frame:
 
 @dataclass
 class Camera:
-    """A pinhole without distortion."""
+    """A pinhole, and its lens's distortion with the coefficients in OpenCV's order."""
 
     name: str
     width_px: int
@@ -34,6 +34,9 @@ class Camera:
     fy_px: float
     cx_px: float
     cy_px: float
+    skew_px: float
+    distortion: str  # none, brown_conrady or kannala_brandt
+    coefficients: list[float]
     frames: list[Frame]
 
 

@@ -18,6 +18,11 @@ from mcap_protobuf.schema import register_schema
 from PIL import Image
 from recorded_run import Camera, Frame, RecordedRun
 
+MODELS = {
+    "none": "",
+    "brown_conrady": "rational_polynomial",
+    "kannala_brandt": "kannala_brandt",
+}
 PLOT_SCHEMA = {"title": "gnbv.Plot", "type": "object", "properties": {"value": {"type": "number"}}}
 
 
@@ -139,11 +144,13 @@ def _frustum(out: _Out, camera: Camera, frame: Frame) -> None:
     _stamp(transform, frame.time_s)
     _pose((transform.translation, transform.rotation), frame.position, frame.quaternion)
     out.message("/tf", frame.time_s, transform)
-    k = [camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
+    k = [camera.fx_px, camera.skew_px, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
     calibration = CameraCalibration(
         frame_id=camera.name,
         width=camera.width_px,
         height=camera.height_px,
+        distortion_model=MODELS[camera.distortion],
+        D=camera.coefficients,
         K=k,
         R=np.eye(3).ravel().tolist(),
         P=[*k[:3], 0.0, *k[3:6], 0.0, *k[6:], 0.0],

@@ -85,7 +85,7 @@ def _camera(rec: Any, camera: Camera) -> dict[str, int]:
     entity = f"world/cameras/{camera.name}"
     pinhole = rr.Pinhole(
         image_from_camera=[
-            [camera.fx_px, 0.0, camera.cx_px],
+            [camera.fx_px, camera.skew_px, camera.cx_px],
             [0.0, camera.fy_px, camera.cy_px],
             [0.0, 0.0, 1.0],
         ],
