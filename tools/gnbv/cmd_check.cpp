@@ -52,9 +52,11 @@ BaselineSubject subject_of(const fs::path& run) {
     const auto values = scenario_values(scenario);
     return BaselineSubject::Values(values.begin(), values.end());
   };
-  BaselineSubject of{
-      .configuration = values_of(load_flown_scenario((run / kScenarioFile).string())),
-      .defaults = values_of({})};
+  const Scenario flown = load_flown_scenario((run / kScenarioFile).string());
+  Scenario usual;  // with as many sensors, so that a new key of theirs has its default, too
+  usual.cameras.resize(flown.cameras.size());
+  usual.lidars.resize(flown.lidars.size());
+  BaselineSubject of{.configuration = values_of(flown), .defaults = values_of(usual)};
   for (const RunInput& input : read_inputs(run)) of.files[input.key] = {input.name, input.sha256};
   return of;
 }
