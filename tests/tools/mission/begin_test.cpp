@@ -83,6 +83,24 @@ TEST(WayOut, AStartWithinAClosedHallIsRefusedUnlessTheVehicleFitsThroughAGate) {
   }
 }
 
+TEST(WayUp, IsClearOfAllThatIsSolidAndBeginsOnGround) {
+  const auto fault = [](const std::vector<std::string>& sets) {
+    const Scenario scenario = load_scenario("smoke", sets);
+    const World world = world_of(scenario);
+    const RayScene scene(world);
+    const ViewPose start = start_pose(scenario, scene);
+    return test::fault_of([&] { need_way_up(scenario, world, scene, start); });
+  };
+  const std::string ground = "start.on_ground=true";
+  const std::string roof = "obstacles=[{box_m: {min: [-5, -5, 0.9], max: [5, 5, 1.0]}}]";
+  const std::string high = "start.position_m=[0, -3, 3.5]";
+  EXPECT_EQ(fault({ground, high}), "");
+  EXPECT_EQ(fault({roof, high}), "");
+  EXPECT_TRUE(test::says(fault({ground, high, roof}), {"start.on_ground", "something solid"}));
+  EXPECT_TRUE(test::says(fault({ground, "structure.ground=false"}),
+                         {"start.on_ground", "no ground below"}));
+}
+
 TEST(ProfileWarning, NamesTheFirstLegThatIsBlocked) {
   const auto warning_of = [](const std::vector<std::string>& sets) {
     const Scenario scenario = load_scenario("smoke", sets);
