@@ -30,7 +30,11 @@ double extent_m(std::span<const Vec3f> cloud_m) {
 }
 
 /// What may be wrong with a cloud that is nowhere near the mesh.
-std::string guess(double cloud_m, double structure_m) {
+std::string guess(const Vec3& cloud_centre_m, double cloud_m, double structure_m) {
+  if (cloud_centre_m.norm() > 1e4 && cloud_centre_m.norm() > 4.0 * cloud_m) {
+    return fmt::format("it looks like a map grid's: --offset-m={:.0f},{:.0f},0 moves the cloud",
+                       -cloud_centre_m.x(), -cloud_centre_m.y());
+  }
   // a third of the structure seen, or noise of three times its size, would still be told apart
   constexpr double kSlack = 3.0;
   for (const auto& [name, per_m] : {std::pair("millimetres", 1000.0), {"centimetres", 100.0}}) {
@@ -89,7 +93,7 @@ void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m, co
       fmt::format("{}: no point within {} m of the mesh: the cloud spans {}, the mesh "
                   "{}: {}",
                   name, kFarthest_m, text_of(cloud_m), text_of(structure_m),
-                  guess(extent_m(cloud_world_m), structure_m.diagonal().norm())));
+                  guess(cloud_m.center(), extent_m(cloud_world_m), structure_m.diagonal().norm())));
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ fs::path resolved(const fs::path& document, const XmlElement& at, std::string ur
 }
 
 const TriangleMesh& ModelParts::mesh_at(const fs::path& file) {
+  if (is_model(file)) throw BadInput(fmt::format("{}: is no mesh of a visual", file.string()));
   const auto [entry, is_new] = meshes_.try_emplace(file.lexically_normal().string());
   if (!is_new) return entry->second;
   const bool is_collada = extension_of(file) == ".dae";

@@ -9,6 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/mesh/file_kind.hpp"
 #include "sim/mesh/mesh_scene.hpp"
+#include "sim/mesh/model_parts.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 #include "tests/fuzz/written.hpp"
 
@@ -49,11 +50,22 @@ void check_scene(const MeshScene& scene) {
   }
 }
 
+void check_model(const std::filesystem::path& path) {
+  const TriangleMesh mesh = read_model(path, Eigen::Matrix4d::Identity()).mesh;
+  for (const auto& face : mesh.faces) {
+    for (const std::uint32_t v : face) GNBV_CHECK(v < mesh.vertices_m.size(), "vertex {}", v);
+  }
+}
+
 void check_file(char format, std::string_view content) {
   std::vector<std::string> warnings;
   const auto path = gnbv::written(content, "mesh");
   what_it_is_instead(path, ".obj");
   switch (format) {
+    case 'd':
+      return check_model(gnbv::written(content, "model.sdf"));
+    case 'u':
+      return check_model(gnbv::written(content, "model.urdf"));
     case 'c':
       return check_scene(read_collada(path));
     case 'g':

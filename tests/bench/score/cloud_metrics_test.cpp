@@ -206,6 +206,7 @@ TEST(CloudFaults, FarFromTheMeshTheUnitIsGuessedOrTheFrameNamed) {
   std::vector<Vec3f> small = cloud_scaled_by(0.001);
   for (Vec3f& p : small) p.z() += 9.0F;  // the box's middle is far from its sides
   const std::vector<Vec3f> elsewhere = {Vec3f(500, 0, 1), Vec3f(501, 2, 3)};
+  const std::vector<Vec3f> map_grid = {Vec3f(500'000, 5'000'000, 1), Vec3f(500'010, 5'000'020, 3)};
   for (const auto& [cloud, guess] :
        {std::pair(cloud_scaled_by(1000.0), "looks like millimetres: scale the cloud by 0.001"),
         {cloud_scaled_by(400.0), "looks like millimetres"},
@@ -213,7 +214,8 @@ TEST(CloudFaults, FarFromTheMeshTheUnitIsGuessedOrTheFrameNamed) {
         {small, "the mesh looks like millimetres: add --set structure.file.scale="},
         {elsewhere, "501.00, 2.00, 3.00"},
         {elsewhere, "30.00, 25.00, 17.00"},
-        {elsewhere, "another frame"}}) {
+        {elsewhere, "another frame"},
+        {map_grid, "a map grid's: --offset-m=-500005,-5000010,0"}}) {
     EXPECT_TRUE(complains(cloud, "no point within 1 m of the mesh")) << guess;
     EXPECT_TRUE(complains(cloud, guess)) << guess;
   }

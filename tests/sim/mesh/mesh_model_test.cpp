@@ -172,6 +172,7 @@ TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
        {std::pair(of_visual("", geometry("<polyline/>")), "m.sdf:3: <polyline> is not read"),
         {of_visual("", geometry("<mesh><uri>a.stl</uri><submesh/></mesh>")),
          "<submesh> is not read"},
+        {of_visual("", geometry("<mesh><uri>m.sdf</uri></mesh>")), "m.sdf: is no mesh of a visual"},
         {of_visual("", geometry("<mesh><uri>no.stl</uri></mesh>")), "'no.stl' is neither in"},
         {of_visual("", geometry("<mesh><uri>https://x/y.dae</uri></mesh>")), "is on no disk"},
         {of_visual("", geometry("<sphere><radius>-1</radius></sphere>")), "not positive"},
