@@ -81,8 +81,6 @@ struct RigidVehicle::Scene {
   Scene(const AirframeParameters& airframe, const World& world_in, const Isometry& T_world_body)
       : hull_shape(btVector3(airframe.hull_radius_m, airframe.hull_radius_m,
                              0.5 * airframe.hull_height_m)) {
-    world.setGravity(btVector3(0, 0, 0));
-    world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
     has_ground = world_in.has_ground;
     if (has_ground) add_static(&ground_shape);
     add_static(world_in.structure);
@@ -96,8 +94,6 @@ struct RigidVehicle::Scene {
         terrain_shape(other.terrain_shape),
         has_ground(other.has_ground),
         hull_shape(other.hull_shape) {
-    world.setGravity(btVector3(0, 0, 0));
-    world.setForceUpdateAllAabbs(false);
     if (has_ground) add_static(&ground_shape);
     for (const auto& mesh : meshes) add_static(*mesh);
     add_body(airframe, T_world_body);
@@ -110,6 +106,8 @@ struct RigidVehicle::Scene {
   Scene& operator=(const Scene&) = delete;
 
   void add_body(const AirframeParameters& airframe, const Isometry& T_world_body) {
+    world.setGravity(btVector3(0, 0, 0));
+    world.setForceUpdateAllAabbs(false);  // the boxes of what stands there never change
     reach_of_hull_m = std::hypot(airframe.hull_radius_m, 0.5 * airframe.hull_height_m);
     btRigidBody::btRigidBodyConstructionInfo info(airframe.mass_kg, nullptr, &hull_shape,
                                                   to_bullet(airframe.inertia_kg_m2));

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 gymnasium = pytest.importorskip("gymnasium")
-import gnbv.gym  # noqa: E402
+import gnbv.gym  # noqa: E402, F401
 
 SET = {"planner.termination.max_iterations": 5, "planner.profiling.method": "none"}
 ALL = ("depth", "rgb", "crop", "poses")

@@ -65,8 +65,9 @@ if int(gymnasium.__version__.split(".")[0]) < 1:
     )
 import numpy as np
 
-from gnbv._episode import METADATA, Array, Episode, Observation, Stage, State
+from gnbv._episode import Episode, State
 from gnbv._planner import Belief
+from gnbv._stage import METADATA, Array, Observation, Stage
 
 SCENARIOS = {
     "Aircraft": "aircraft",
