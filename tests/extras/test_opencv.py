@@ -1,5 +1,5 @@
-"""The real OpenCV and COLMAP see through our lenses what we do: a calibration that OpenCV wrote, the
-rays of a frame's depth, the camera of the COLMAP export."""
+"""The real OpenCV and COLMAP see through our lenses what we do: a calibration that OpenCV wrote,
+the rays of a frame's depth, the camera of the COLMAP export."""
 
 import json
 from pathlib import Path

@@ -182,6 +182,10 @@ std::string write_timeline(const RunRecord& record, const ExportParts& parts,
   for (const auto& [kind, count] : written.items()) {
     words += fmt::format("{}{} {}", words.empty() ? "" : ", ", count.get<std::int64_t>(), kind);
   }
+  const auto is_bent = [](const CameraConfig& c) { return c.distortion.model != Distortion::none; };
+  if (is_rerun && std::ranges::any_of(record.scenario.cameras, is_bent)) {
+    words += "; images as of pinholes, since Rerun knows no distortion";
+  }
   return words;
 }
 
