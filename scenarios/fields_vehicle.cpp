@@ -179,9 +179,10 @@ void fields(const Keys& key, GuidanceConfig& c) {
   const Keys passing = key.only_if(c.trajectory == smooth, ".trajectory");
   passing("pass_distance_m", c.pass_distance_m, positive(10), "smooth: a view passed this near.");
   passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180), "smooth: turned up to this there.");
-  key.angle("image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
-            "Turns, and speed over the distance of the nearest known surface, keep below this: blur "
-            "allowed in pixels / (focal length in pixels * exposure time). 0: any.");
+  key.angle(
+      "image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
+      "Turns, and speed over the distance of the nearest known surface, keep below this: blur "
+      "allowed in pixels / (focal length in pixels * exposure time). 0: any.");
   key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
 }
 

@@ -121,8 +121,8 @@ std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& wo
   if (is_ideal) return std::make_unique<IdealFlight>(config, world, below);
   auto flight =
       std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::on_ground, wind);
-  flight->command({.p_world_m = flight->estimate().T_world_body.translation(),
-                   .yaw_rad = start.yaw_rad});
+  flight->command(
+      {.p_world_m = flight->estimate().T_world_body.translation(), .yaw_rad = start.yaw_rad});
   const bool is_ready = flight->px4().set_mode(NavState::offboard) == Ack::accepted &&
                         flight->px4().arm(true) == Ack::accepted;
   GNBV_CHECK(is_ready, "a vehicle at rest could not be armed");

@@ -97,8 +97,8 @@ TEST(Takeoff, SharpFramesAreTakenSlowly) {
           (now.translation() - before.translation()).norm() / (now_s - before_s);
       const double away_m = slow.scene.clearance_m(now.translation(), 10.0);
       most = std::max(most, speed_m_s / away_m);
-      most = std::max(most, std::abs(wrap_angle_rad(yaw_of(now) - yaw_of(before))) /
-                                (now_s - before_s));
+      most = std::max(most,
+                      std::abs(wrap_angle_rad(yaw_of(now) - yaw_of(before))) / (now_s - before_s));
     }
     return most;
   };

@@ -112,8 +112,7 @@ void need_way_up(const Scenario& scenario, const World& world, const RayScene& s
         "begins; structure.ground: true, or a terrain, gives one",
         start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z()));
   }
-  if (low_m.z() >= start.p_world_m.z() ||
-      is_leg_clear(scene, low_m, start.p_world_m, radius_m)) {
+  if (low_m.z() >= start.p_world_m.z() || is_leg_clear(scene, low_m, start.p_world_m, radius_m)) {
     return;
   }
   throw BadInput(fmt::format(
