@@ -257,7 +257,8 @@ fs::path model_file_of(const fs::path& path) {
     if (!versions.empty()) return path / trimmed_text(versions.back().text());
   }
   if (fs::exists(path / "model.sdf", ignored)) return path / "model.sdf";
-  throw BadInput(fmt::format("{}: is a folder without model.sdf or model.config", path.string()));
+  throw BadInput(
+      fmt::format("{}: is a directory without model.sdf or model.config", path.string()));
 }
 
 MeshReading read_model(const fs::path& path, const Matrix4& T_world_model) {

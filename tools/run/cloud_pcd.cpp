@@ -1,5 +1,5 @@
-// read_pcd_cloud() of tools/run/cloud_formats.hpp. Our own: PCL's (1.13) believes what the header
-// says of sizes, and its libraries would cost every start.
+// read_pcd_cloud() of tools/run/cloud_formats.hpp. Our own: PCL's library would cost every start,
+// and loads VTK.
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -34,7 +34,7 @@ TEST_F(MeshFile, FacesWithoutAreaAreDroppedAndReported) {
 
 TEST_F(MeshFile, BadFilesAreNamedWithTheirFault) {
   EXPECT_TRUE(says(complaint(file(folder_ / "absent.obj")), {"absent.obj: No such file"}));
-  EXPECT_TRUE(says(complaint(file(folder_)), {"is a folder without model.sdf"}));
+  EXPECT_TRUE(says(complaint(file(folder_)), {"is a directory without model.sdf"}));
   EXPECT_TRUE(says(complaint(file(write("a.xyzzy", "1 2 3"))), {"a.xyzzy: '.xyzzy' is no known"}));
   for (const char* name : {"a.fbx", "a.x3d", "a.3ds", "a.off", "a.blend", "a.ifc", "a.obj.gz"}) {
     EXPECT_TRUE(
