@@ -238,6 +238,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     if (asks_planner) {
       planner.emplace(in_file ? *in_file : *options.planner, scenario).connect(inputs);
     }
+    if (options.observer != nullptr) inputs.observers.push_back(options.observer);
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
     const Stopwatch scoring;

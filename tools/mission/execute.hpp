@@ -25,6 +25,7 @@ struct MissionOptions {
   bool coverage = false;     // which then tell the coverage
   CeilingFrom ceiling = CeilingFrom::cache;
   const UserPlanner* planner = nullptr;  // asked for the views; the utility is `route`
+  MissionObserver* observer = nullptr;   // told last
   std::function<void(double share_done, const std::string& note)> on_progress = {};  // may be empty
   std::function<bool()> should_stop = [] { return false; };  // asked as Ctrl-C is
 };

@@ -30,15 +30,7 @@ nb::dict dict_of(const EnvState& state, const EnvStage& stage) {
   out["map"] = floats(state.seen.map);
   out["pose"] = floats(state.seen.pose);
   out["entropy_left"] = state.seen.entropy_left;
-  if (!state.top.empty()) {
-    const auto columns = static_cast<std::size_t>(state.grid.size()[0]);
-    const Key& low = state.grid.min_key();
-    const Key& size = state.grid.size();
-    const double voxel_m = state.grid.resolution_m();
-    out["top"] = owned_array(state.top, 2 * columns);
-    out["top_low_m"] = nb::make_tuple(voxel_m * low[0], voxel_m * low[1]);
-    out["top_high_m"] = nb::make_tuple(voxel_m * (low[0] + size[0]), voxel_m * (low[1] + size[1]));
-  }
+  if (!state.top.empty()) put_top(state.grid, state.top, out);
   if (!state.crop.empty()) out["crop"] = floats(state.crop);
   if (state.frames) out["frames"] = frames_of(*state.frames, camera_models(stage.scenario));
   out["views"] = owned_array(state.seen.views, 5);

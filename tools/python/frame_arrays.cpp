@@ -62,6 +62,15 @@ nb::list frames_of(const KeptView& view, std::span<const CameraModel> cameras) {
   return out;
 }
 
+void put_top(const GridGeometry& grid, std::vector<float> top, nb::dict& out) {
+  const Key& low = grid.min_key();
+  const Key& size = grid.size();
+  const double voxel_m = grid.resolution_m();
+  out["top"] = owned_array(std::move(top), 2 * static_cast<std::size_t>(size[0]));
+  out["top_low_m"] = nb::make_tuple(voxel_m * low[0], voxel_m * low[1]);
+  out["top_high_m"] = nb::make_tuple(voxel_m * (low[0] + size[0]), voxel_m * (low[1] + size[1]));
+}
+
 void bind_frames(nb::module_& m) {
   nb::class_<FrameRecord>(m, "FrameRecord")
       .def("__len__", [](const FrameRecord& record) { return record.frames.size(); })

@@ -1,4 +1,4 @@
-// What cameras saw, as Python gets it.
+// What cameras saw, and the map from above, as Python gets them.
 #pragma once
 
 #include "sensors/camera_model.hpp"
@@ -23,6 +23,9 @@ struct KeptView {
 
 /// The fields of gnbv.Frame, a tuple a camera that saw.
 nb::list frames_of(const KeptView& view, std::span<const CameraModel> cameras);
+
+/// top_view() of the map into a dictionary, and the corners of what it shows.
+void put_top(const GridGeometry& grid, std::vector<float> top, nb::dict& out);
 
 /// run.frames.
 void bind_frames(nb::module_& m);

@@ -9,6 +9,7 @@
 #include "tools/mission/resolve.hpp"
 #include "tools/python/belief_view.hpp"
 #include "tools/python/bindings.hpp"
+#include "tools/python/env_observation.hpp"
 #include "tools/python/frame_arrays.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -128,6 +129,30 @@ class AskedPlanner {
   bool has_kept_ = false;
 };
 
+/// Tells a Python function of each view, with the map from above.
+class ViewTeller final : public MissionObserver {
+ public:
+  ViewTeller(nb::object function, Raised& raised)
+      : function_(std::move(function)), raised_(raised) {}
+
+  void on_view(const ViewRecord& view, const Belief& belief) override {
+    std::vector<float> top = top_view(belief.grid);
+    const nb::gil_scoped_acquire python_runs;
+    if (raised_.error) return;
+    try {
+      nb::dict row = row_of(view);
+      put_top(belief.grid.geometry(), std::move(top), row);
+      function_(row);
+    } catch (nb::python_error& error) {
+      raised_.keep(error);
+    }
+  }
+
+ private:
+  nb::object function_;
+  Raised& raised_;
+};
+
 struct RunArguments {
   ScenarioOptions scenario;
   MissionOptions mission;
@@ -156,7 +181,8 @@ RunArguments arguments_of(const nb::dict& given) {
 }
 
 /// folder, termination, failure.
-nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress) {
+nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress,
+              nb::object on_view) {
   RunArguments arguments = arguments_of(given);
   MissionOptions& options = arguments.mission;
   std::vector<std::string> unused_notes;
@@ -179,6 +205,8 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
       }
     };
   }
+  std::optional<ViewTeller> teller;
+  if (!on_view.is_none()) options.observer = &teller.emplace(on_view, raised);
   std::unique_ptr<AskedPlanner> asked;
   UserPlanner hooks;
   if (!planner.is_none()) {
@@ -209,8 +237,11 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress)
 
 void bind_run(nb::module_& m) {
   m.def("run", &run, nb::arg("arguments"), nb::arg("planner").none(), nb::arg("on_progress").none(),
+        nb::arg("on_view").none(),
         nb::sig("def run(arguments: dict[str, typing.Any], planner: object | None, on_progress: "
-                "collections.abc.Callable[[float, str], None] | None) -> tuple[str, str, str]"));
+                "collections.abc.Callable[[float, str], None] | None, on_view: "
+                "collections.abc.Callable[[dict[str, typing.Any]], None] | None) -> "
+                "tuple[str, str, str]"));
   m.def("builtin_scenarios", &builtin_scenario_names);
   m.def("utilities", [] {
     std::vector<std::string> names;

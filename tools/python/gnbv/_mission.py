@@ -11,6 +11,7 @@ from typing import Any, Union
 
 from gnbv import _core
 from gnbv._errors import BadInput, Failed, Interrupted, UtilityFailed
+from gnbv._picture import Live, live_picture
 from gnbv._planner import AskedPlanner, Planner
 from gnbv._run import Run
 from gnbv._utility import Utility, as_arguments, recorded_planner
@@ -36,6 +37,7 @@ def run(
     candidates: bool = False,
     ceiling: bool = False,
     progress: bool | Progress = True,
+    live: bool | Live = False,
 ) -> Run:
     """Flies one mission, scores it, and returns its run directory.
 
@@ -52,6 +54,8 @@ def run(
         set: values of the scenario by key: {"planner.cloud.leaf_m": 0.02}.
         progress: False: none; True: by tqdm where it is installed and stderr is a terminal; or a
             function of the share done (0 to 1) and a note.
+        live: True: in Jupyter a picture of the map from above and the way, drawn anew after each
+            view, elsewhere nothing; or a function of that picture, (H, W, 3) bytes.
 
     Raises:
         BadInput: with file, line, key and value of what is wrong; nothing was written.
@@ -91,7 +95,8 @@ def run(
         }
         shown = stack.enter_context(_Shown(progress, os.fspath(scenario)))
         asked = AskedPlanner(planner) if callable(planner) else None
-        folder, termination, failure = _core.run(given, asked, shown.show if shown else None)
+        show = shown.show if shown else None
+        folder, termination, failure = _core.run(given, asked, show, live_picture(live))
     return _checked(folder, termination, failure)
 
 

@@ -1,8 +1,12 @@
-"""What an environment draws: the map from above, the way flown, where the vehicle is and looks."""
+"""The map from above, the way flown, where the vehicle is and looks: of an environment, and of a
+mission while it flies."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import struct
+import sys
+import zlib
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -10,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 Picture = npt.NDArray[np.uint8]
+Live = Callable[[Picture], None]
 SIDE_PX = 480  # the longer side at least
 _UNKNOWN, _FREE = np.array([70.0, 75.0, 85.0]), np.array([235.0, 237.0, 240.0])
 _LOW, _HIGH = np.array([40.0, 90.0, 170.0]), np.array([245.0, 180.0, 60.0])
@@ -54,3 +59,56 @@ def from_above(
         tip = pixel(x + ahead_m * np.cos(yaw + turned), y + ahead_m * np.sin(yaw + turned))
         _line(picture, pixel(x, y), tip, _HERE, 3)
     return picture
+
+
+def png(picture: Picture) -> bytes:
+    """As a PNG file."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        checked = kind + data
+        return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
+
+    height, width, _ = picture.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in picture)
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    data = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + data
+
+
+def _in_notebook() -> Live | None:
+    """Shows pictures in place of each other below the cell; None outside of Jupyter."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    if not hasattr(shell, "kernel"):
+        return None
+    from IPython.display import (  # type: ignore[import-not-found,unused-ignore]
+        Image,
+        display,
+    )
+
+    handle = None
+
+    def show(picture: Picture) -> None:
+        nonlocal handle
+        image = Image(data=png(picture))
+        if handle is None:
+            handle = display(image, display_id=True)
+        else:
+            handle.update(image)
+
+    return show
+
+
+def live_picture(live: bool | Live) -> Callable[[dict[str, Any]], None] | None:
+    """What _core.run tells of each view."""
+    show = live if callable(live) else _in_notebook() if live else None
+    if show is None:
+        return None
+    way: list[npt.NDArray[np.float64]] = []
+
+    def on_view(view: dict[str, Any]) -> None:
+        way.append(np.array([view[k] for k in ("x", "y", "z", "yaw", "gimbal_pitch")]))
+        cells = view["top"].reshape(len(view["top"]), -1, 2)
+        show(from_above(cells, view["top_low_m"], view["top_high_m"], way))
+
+    return on_view
