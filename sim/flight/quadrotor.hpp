@@ -20,7 +20,10 @@ class Quadrotor final : public Flight {
   VehicleState estimate() const override { return estimate_; }
   /// A setpoint of the offboard stream.
   void command(const Setpoint& setpoint) override { px4_.offboard_setpoint(setpoint); }
-  void leave_ground() override { may_touch_ground_ = false; }
+  void leave_ground() override {
+    may_touch_ground_ = false;
+    vehicle_.forget_ground();
+  }
   void land() override;
   bool has_landed() const override { return !px4_.is_armed(); }
   void step() override;

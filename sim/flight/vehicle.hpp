@@ -37,6 +37,8 @@ class RigidVehicle {
   bool has_touched_structure() const { return has_touched_structure_; }
   /// The same of the ground and terrain.
   bool has_touched_ground() const { return has_touched_ground_; }
+  /// As if it had never touched the ground so far.
+  void forget_ground() { has_touched_ground_ = false; }
 
  private:
   struct Scene;  // what Bullet knows
