@@ -311,7 +311,8 @@ def test_colmap_cameras_see_through_our_lenses(whole, asked, model, expected):
                 found = angle / np.sqrt(r2) * k * np.array([x, y])
             else:
                 k1, k2, p1, p2, k3, k4, k5, k6 = [*expected, 0, 0, 0, 0][:8]
-                k = (1 + k1 * r2 + k2 * r2**2 + k3 * r2**3) / (1 + k4 * r2 + k5 * r2**2 + k6 * r2**3)
+                k = 1 + k1 * r2 + k2 * r2**2 + k3 * r2**3
+                k /= 1 + k4 * r2 + k5 * r2**2 + k6 * r2**3
                 found = k * np.array([x, y]) + [2 * p1 * x * y + p2 * (r2 + 2 * x * x),
                                                 p1 * (r2 + 2 * y * y) + 2 * p2 * x * y]
             off_px.append(np.abs(110 * found + [80, 60] - [float(u), float(v)]).max())

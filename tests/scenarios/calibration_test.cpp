@@ -176,7 +176,8 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
   EXPECT_THAT(read("a: [").complaint, HasSubstr("calib:1: "));
   EXPECT_THAT(read("").complaint, HasSubstr("is empty"));
   EXPECT_THAT(read("[1, 2]").complaint, HasSubstr("holds no map of keys"));
-  EXPECT_THAT(complaint("cameras: [{calibration: none.yaml}]\n"), HasSubstr("none.yaml"));
+  EXPECT_THAT(complaint("cameras: [{calibration: none.yaml}]\n"),
+              HasSubstr("none.yaml': there is no such file"));
 }
 
 TEST(CameraKeys, OneFieldOfViewAloneMakesSquarePixels) {
