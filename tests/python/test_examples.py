@@ -34,6 +34,16 @@ def test_random_agent():
     assert said("random_agent.py").startswith("reward ")
 
 
+def test_train_ppo(tmp_path):
+    """Optional: it learns more than chance finds."""
+    for package in ("gymnasium", "skrl", "jax", "matplotlib"):
+        pytest.importorskip(package)
+    lines = said("train_ppo.py", 3000, tmp_path / "c.png").splitlines()
+    by_chance, learnt = (float(line.split(": ")[1].split()[0]) for line in lines[:2])
+    assert learnt > 2.0 * by_chance > 0.0
+    assert (tmp_path / "c.png").read_bytes()[:4] == b"\x89PNG"
+
+
 def test_plot_coverage(smoke, tmp_path):
     pytest.importorskip("matplotlib")
     said("plot_coverage.py", tmp_path / "c.png", smoke.folder, smoke.folder)
