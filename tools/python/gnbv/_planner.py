@@ -113,6 +113,7 @@ class Belief:
         from a file."""
         if self._frames is None:
             raise BadInput("belief.frames: only a planner of this process, gnbv.run(planner=), has")
+        self._view.current  # noqa: B018  (raises after the call)
         from gnbv._frames import Frame  # a planner in a file has this module alone
 
         return [Frame(*fields) for fields in self._frames()]
