@@ -9,9 +9,9 @@ namespace {
 
 /// 3 x 3, pixels.
 template <typename Camera>
-nb::object matrix_of(const Camera& c) {
+nb::object matrix_of(const Camera& c, double skew_px) {
   return owned_array(
-      std::vector<double>{c.fx_px, 0.0, c.cx_px, 0.0, c.fy_px, c.cy_px, 0.0, 0.0, 1.0}, 3);
+      std::vector<double>{c.fx_px, skew_px, c.cx_px, 0.0, c.fy_px, c.cy_px, 0.0, 0.0, 1.0}, 3);
 }
 
 /// 4 x 4, row by row.
@@ -37,8 +37,8 @@ nb::tuple read_frame(const FrameRecord& record, std::size_t i) {
   }
   return nb::make_tuple(camera.name, frame.iteration, frame.time_s,
                         owned_array(std::move(depth_m), width),
-                        colours(read_colour(record, i).rgb, width), matrix_of(camera),
-                        matrix_of(frame.T_world_camera));
+                        colours(read_colour(record, i).rgb, width),
+                        matrix_of(camera, camera.skew_px()), matrix_of(frame.T_world_camera));
 }
 
 }  // namespace
@@ -55,9 +55,9 @@ nb::list frames_of(const KeptView& view, std::span<const CameraModel> cameras) {
       for (const auto& pixel : colour.rgb) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
       rgb = colours(std::move(bytes), width);
     }
-    out.append(nb::make_tuple(camera.config.name, view.iteration, view.time_s,
-                              owned_array(frame.depth_m, width), rgb, matrix_of(camera),
-                              matrix_of(frame.T_world_camera)));
+    out.append(nb::make_tuple(
+        camera.config.name, view.iteration, view.time_s, owned_array(frame.depth_m, width), rgb,
+        matrix_of(camera, camera.config.skew_px), matrix_of(frame.T_world_camera)));
   }
   return out;
 }

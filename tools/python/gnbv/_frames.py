@@ -12,9 +12,10 @@ import numpy.typing as npt
 class Frame(NamedTuple):
     """What one camera saw at one view, and from where.
 
-    A pinhole without distortion: the centre of the pixel of column u and row v lies at
-    (u + 0.5, v + 0.5), and the point it sees, in the camera's optical frame (x right, y down,
-    z forward), is depth_m[v, u] * inv(K) @ (u + 0.5, v + 0.5, 1).
+    The centre of the pixel of column u and row v lies at (u + 0.5, v + 0.5), and the point it
+    sees, in the camera's optical frame (x right, y down, z forward), is
+    depth_m[v, u] * inv(K) @ (u + 0.5, v + 0.5, 1). Where cameras.N.distortion bends the image,
+    inv(K) @ ... is the distorted direction: undo that first, with OpenCV's undistortPoints.
 
     Attributes:
         depth_m: (H, W) float32, m along the optical axis. Of belief.frames, inf: no return up to
