@@ -115,10 +115,7 @@ ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
   const double half_height_m = 0.5 * airframe.hull_height_m;
   const double clearance_m = std::hypot(airframe.hull_radius_m, half_height_m);
   const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), half_height_m);
-  if (scene.clearance_m(on_ground_world_m, clearance_m) >= clearance_m) {
-    if (const std::string moved = moved_start_note(scenario, start); !moved.empty()) say(moved);
-    return start;
-  }
+  if (scene.clearance_m(on_ground_world_m, clearance_m) >= clearance_m) return start;
   throw BadInput(
       fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
                   "start, is within "
