@@ -181,8 +181,8 @@ void fields(const Keys& key, GuidanceConfig& c) {
   passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180), "smooth: turned up to this there.");
   key.angle(
       "image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
-      "Turns, and speed over the distance of the nearest known surface, keep below this: blur "
-      "allowed in pixels / (focal length in pixels * exposure time). 0: any.");
+      "Turns, and between views speed over the distance of the nearest known surface, keep below "
+      "this: blur allowed in pixels / (focal length in pixels * exposure time). 0: any.");
   key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
 }
 

@@ -115,10 +115,11 @@ std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& wo
     return std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::airborne_offboard,
                                        wind);
   }
-  ViewPose below = start;
-  below.p_world_m.z() = ground_height_m(world, start.p_world_m);
-  if (std::isinf(below.p_world_m.z())) throw BadInput("start.on_ground: there is no ground below");
-  if (is_ideal) return std::make_unique<IdealFlight>(config, world, below);
+  if (is_ideal) {
+    ViewPose below = start;
+    below.p_world_m.z() = ground_height_m(world, start.p_world_m);
+    return std::make_unique<IdealFlight>(config, world, below);
+  }
   auto flight =
       std::make_unique<Quadrotor>(config, world, start, seed, Px4::Start::on_ground, wind);
   flight->command(

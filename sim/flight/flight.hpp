@@ -75,8 +75,8 @@ class Flight {
 /// and yaw rate where these are not given, keeps what is not commanded. It knows where it is, feels
 /// no wind, draws hover power and has no body to collide with. It lands on the highest terrain at
 /// its x and y, else on the plane ground, whatever else is in between.
-/// FlightStart::ground: at rest on the ground below `start`, armed and in OFFBOARD, its rotors off;
-/// throws BadInput naming start.on_ground where there is none.
+/// FlightStart::ground: at rest on the ground below `start`, armed and in OFFBOARD, its rotors off.
+/// Where there is none, BadInput for a quadrotor, BrokenInvariant for the ideal vehicle.
 enum class FlightStart { air, ground };
 std::unique_ptr<Flight> make_flight(const VehicleConfig& config, const World& world,
                                     const ViewPose& start, std::uint64_t seed,

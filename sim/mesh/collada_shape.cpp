@@ -12,12 +12,6 @@ namespace {
 
 using Ring = std::vector<std::uint32_t>;
 
-std::string trimmed(const std::string& text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
 /// A number as assimp read it: whole part, broken part and power of ten each in single precision.
 /// So the paper's structures stay what they were, bit for bit. Where that loses millimetres, as
 /// beside the offset of a map grid, it is read in double.

@@ -16,14 +16,6 @@ using Matrix4 = Eigen::Matrix4d;
 
 constexpr std::size_t kMostModelFaces = std::size_t{1} << 27U;
 
-std::string trimmed_text(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
-  const std::size_t first = text.find_first_not_of(" \r");
-  if (first == text.npos) return "";
-  return text.substr(first, text.find_last_not_of(" \r") - first + 1);
-}
-
 /// How many sides keep the flat ones within 2 mm of the round surface.
 int sides_for(double radius_m) {
   constexpr double kOff_m = 2e-3;
@@ -83,7 +75,7 @@ std::string value_of(const fs::path& document, const XmlElement& shape, const ch
   if (!attribute && !shape.child(name)) {
     fail_at(document, shape, fmt::format("<{}> without {}", shape.name(), name));
   }
-  return trimmed_text(attribute ? *attribute : shape.child(name).text());
+  return trimmed(attribute ? *attribute : shape.child(name).text());
 }
 
 }  // namespace
@@ -94,7 +86,7 @@ void fail_at(const fs::path& document, const XmlElement& at, const std::string& 
 
 std::vector<double> numbers_of(const fs::path& document, const XmlElement& at, std::string text,
                                std::initializer_list<std::size_t> counts) {
-  text = trimmed_text(std::move(text));
+  std::replace(text.begin(), text.end(), '\n', ' ');
   std::string_view rest = text;
   std::vector<double> values;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
@@ -124,7 +116,7 @@ Eigen::Matrix3d R_rpy(double roll_rad, double pitch_rad, double yaw_rad) {
 }
 
 fs::path resolved(const fs::path& document, const XmlElement& at, std::string uri) {
-  uri = percent_decoded(trimmed_text(std::move(uri)));
+  uri = percent_decoded(trimmed(uri));
   const fs::path folder = fs::absolute(document).parent_path();
   const std::size_t scheme = uri.find("://");
   const std::string kind = scheme == uri.npos ? "" : uri.substr(0, scheme);
@@ -254,7 +246,7 @@ fs::path model_file_of(const fs::path& path) {
     std::vector<std::string> warnings;
     const XmlTree config(path / "model.config", warnings);
     const auto versions = config.root().children("sdf");  // the last one is the newest
-    if (!versions.empty()) return path / trimmed_text(versions.back().text());
+    if (!versions.empty()) return path / trimmed(versions.back().text());
   }
   if (fs::exists(path / "model.sdf", ignored)) return path / "model.sdf";
   throw BadInput(

@@ -64,6 +64,12 @@ void split(std::string_view line, std::vector<std::string_view>& words) {
   for (auto word = take_word(line); !word.empty(); word = take_word(line)) words.push_back(word);
 }
 
+std::string trimmed(const std::string& text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
 std::string joined(Words words) {
   return {words.front().data(), words.back().data() + words.back().size()};
 }

@@ -18,6 +18,9 @@ using Words = std::span<const std::string_view>;
 /// Cuts the first word off a text, with the blanks before it; empty at its end.
 std::string_view take_word(std::string_view& text);
 
+/// Without the blanks and line ends around it.
+std::string trimmed(const std::string& text);
+
 /// The words of a line.
 void split(std::string_view line, std::vector<std::string_view>& words);
 

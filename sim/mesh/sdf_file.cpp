@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/mesh/model_parts.hpp"
+#include "sim/mesh/plain_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -55,7 +56,7 @@ class ModelFrames {
     for (const XmlElement& element : model.children()) {
       const std::string_view kind = element.name();
       std::string base = "__model__";
-      if (kind == "joint") base = text_of(element.child("child"));
+      if (kind == "joint") base = trimmed(element.child("child").text());
       if (kind == "frame") base = element.attribute("attached_to").value_or(base);
       const bool is_frame = kind == "link" || kind == "joint" || kind == "frame" || kind == "model";
       if (!is_frame) continue;
@@ -83,12 +84,6 @@ class ModelFrames {
   Matrix4 T_model_of(const XmlElement& element, const std::string& fallback) const {
     return T_model_frame(base_of({document_, element}, fallback), element) *
            pose_of({document_, element});
-  }
-
-  static std::string text_of(const XmlElement& element) {
-    std::string text = element.text();
-    std::erase_if(text, [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; });
-    return text;
   }
 
  private:

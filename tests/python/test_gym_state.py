@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 gymnasium = pytest.importorskip("gymnasium")
+from test_gym import same  # noqa: E402
+
 import gnbv.gym  # noqa: E402
 
 BUDGET = {"planner.termination.max_iterations": 6}
@@ -18,14 +20,6 @@ NOISY = {**WINDY, "lidars": "[{name: lidar, beams: 181, rate_hz: 10, range_sigma
 
 def made(settings=BUDGET, **more):
     return gymnasium.make("gnbv/Smoke-v0", set=settings, goal=0.0, **more).unwrapped
-
-
-def same(a, b):
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
-    if isinstance(a, (tuple, list)):
-        return len(a) == len(b) and all(map(same, a, b))
-    return np.array_equal(a, b)
 
 
 def flown(env, random, count=99):

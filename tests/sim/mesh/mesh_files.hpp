@@ -25,6 +25,16 @@ class MeshFile : public testing::Test {
   std::filesystem::path folder_ = temp_.path();
 };
 
+/// Positive for a closed surface whose faces turn outwards.
+inline double volume_m3(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const auto c = face_corners_m(mesh, i);
+    sum += c[0].dot(c[1].cross(c[2])) / 6.0;
+  }
+  return sum;
+}
+
 inline MeshFileConfig file(const std::filesystem::path& path) {
   MeshFileConfig config;
   config.path = path.string();

@@ -37,16 +37,6 @@ void expect_places(const TriangleMesh& mesh, const std::vector<Vec3>& expected) 
   }
 }
 
-/// Positive for a closed surface whose faces turn outwards.
-double volume_m3(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const auto c = face_corners_m(mesh, i);
-    sum += c[0].dot(c[1].cross(c[2])) / 6.0;
-  }
-  return sum;
-}
-
 const std::string kBox = "<geometry><box><size>1 1 1</size></box></geometry>";
 
 std::string visual(const std::string& pose, const std::string& geometry = kBox) {
@@ -121,15 +111,15 @@ TEST_F(ModelFile, LinksOfAUrdfStandWhereJointsAtZeroPutThem) {
   const TriangleMesh mesh = load_mesh(path);
   expect_places(mesh, {{0, 0, 0}, {0, 4, 2}});
   EXPECT_EQ(mesh.materials[mesh.face_material.back()].rgb, (std::array{1.0F, 0.0F, 0.0F}));
-  EXPECT_NEAR(volume_m3(mesh), 7.0, 1e-5);
+  EXPECT_NEAR(test::volume_m3(mesh), 7.0, 1e-5);
 }
 
 TEST_F(ModelFile, PrimitivesHaveTheirVolumeAndTurnOutwards) {
   const auto volume_of = [&](const std::string& shape) {
-    return volume_m3(load("p.sdf", sdf("<model name='m'><link name='l'>" +
-                                       visual("<pose>3 4 5 0.1 0.2 0.3</pose>",
-                                              "<geometry>" + shape + "</geometry>") +
-                                       "</link></model>")));
+    return test::volume_m3(load("p.sdf", sdf("<model name='m'><link name='l'>" +
+                                             visual("<pose>3 4 5 0.1 0.2 0.3</pose>",
+                                                    "<geometry>" + shape + "</geometry>") +
+                                             "</link></model>")));
   };
   const auto expect_near = [](double measured, double exact) {
     EXPECT_NEAR(measured, exact, 0.01 * exact);  // inscribed: a little less

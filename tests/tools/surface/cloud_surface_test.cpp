@@ -10,8 +10,7 @@
 
 #include "bench/score/escape_search.hpp"
 #include "sim/mesh/mesh_file.hpp"
-#include "tests/support/fault.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/sim/mesh/mesh_files.hpp"
 #include "tools/run/cloud_file.hpp"
 
 namespace gnbv {
@@ -35,15 +34,6 @@ std::vector<Vec3f> cube_points(int count, double noise_m) {
   return points;
 }
 
-double volume_m3(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const auto c = face_corners_m(mesh, i);
-    sum += c[0].dot(c[1].cross(c[2])) / 6.0;
-  }
-  return sum;
-}
-
 class CloudSurfaces : public testing::Test {
  protected:
   CloudSurface made_of(const std::vector<Vec3f>& points) {
@@ -61,7 +51,7 @@ TEST_F(CloudSurfaces, ACubeStaysACubeAndTheErrorIsThatOfItsPoints) {
   for (const double noise_m : {0.0, 0.01}) {
     const CloudSurface made = made_of(cube_points(30'000, noise_m));
     const TriangleMesh mesh = load_mesh({.path = (folder_ / "surface.ply").string()});
-    EXPECT_NEAR(volume_m3(mesh), kSide_m * kSide_m * kSide_m, 0.15);
+    EXPECT_NEAR(test::volume_m3(mesh), kSide_m * kSide_m * kSide_m, 0.15);
     EXPECT_NEAR(surface_area_m2(mesh), 6.0 * kSide_m * kSide_m, 1.2);
     const auto json = nlohmann::json::parse(made.json);
     EXPECT_EQ(json["points"], 30'000);
