@@ -18,6 +18,7 @@ constexpr float kBoundaryVoxels = 0.2F * SurfaceCell::kSide * SurfaceCell::kSide
 constexpr std::array<double, kPatchSources> kPrior = {0.9, 0.5, 0.3, 0.5};
 constexpr double kPriorPerObservation = 0.4;
 constexpr std::array<double, kIncidenceBins> kPriorOfIncidence = {1.0, 0.95, 0.8};
+constexpr std::array<double, kCertaintyBins> kPriorOfCertainty = {1.0, 0.8, 0.5, 0.2};
 constexpr double kPriorTries = 300.0;  // the prior weighs as much as so many small voxels
 
 // Each time a view sees into a cube, what was known of it counts by this factor. To begin with, so
@@ -134,9 +135,14 @@ ObservationYield::ObservationYield() {
     patch.source = static_cast<PatchSource>(source);
     double prior = kPrior[source];
     for (patch.observations = 0; patch.observations < kObservationBins; ++patch.observations) {
-      for (std::size_t incidence = 0; incidence < kIncidenceBins; ++incidence) {
-        for (patch.points = 0; patch.points < kPointBins; ++patch.points) {
-          learn(patch, incidence, kPriorTries, kPriorTries * prior * kPriorOfIncidence[incidence]);
+      SeenPatch how;
+      for (how.certainty = 0; how.certainty < kCertaintyBins; ++how.certainty) {
+        for (how.incidence = 0; how.incidence < kIncidenceBins; ++how.incidence) {
+          const double share =
+              prior * kPriorOfIncidence[how.incidence] * kPriorOfCertainty[how.certainty];
+          for (patch.points = 0; patch.points < kPointBins; ++patch.points) {
+            learn(patch, how, kPriorTries, kPriorTries * share);
+          }
         }
       }
       prior *= kPriorPerObservation;
@@ -144,9 +150,9 @@ ObservationYield::ObservationYield() {
   }
 }
 
-void ObservationYield::learn(const Patch& patch, std::size_t incidence, double missing,
+void ObservationYield::learn(const Patch& patch, const SeenPatch& how, double missing,
                              double found) {
-  const std::size_t at = index(patch, incidence);
+  const std::size_t at = index(patch, how);
   tries_[at] += missing;
   hits_[at] += std::min(found, missing);
   shares_[at] = static_cast<float>(hits_[at] / tries_[at]);
@@ -157,7 +163,7 @@ double GainCalibration::expected(std::span<const SeenPatch> seen,
   double sum = 0.0;
   for (const SeenPatch& one : seen) {
     const Patch& patch = patches[one.patch];
-    sum += patch.missing * yield_.share(patch, one.incidence);
+    sum += patch.missing * yield_.share(patch, one);
   }
   return sum;
 }
@@ -168,7 +174,7 @@ void GainCalibration::note(std::span<const SeenPatch> seen, std::span<const Patc
     const Patch& patch = patches[one.patch];
     predictions_.push_back({.seen = one,
                             .patch = patch,
-                            .gain = patch.missing * yield_.share(patch, one.incidence),
+                            .gain = patch.missing * yield_.share(patch, one),
                             .covered_before = cells.cells()[cell_of(one.patch)].covered});
   }
 }
@@ -180,7 +186,7 @@ Gain GainCalibration::settle(SurfaceCells& cells) {
     const std::uint64_t fresh = cells.cells()[cell_of(seen.patch)].covered & ~covered_before;
     const double missing = patch.missing;
     const double found = std::min<double>(missing, std::popcount(fresh));
-    yield_.learn(patch, seen.incidence, missing, found);
+    yield_.learn(patch, seen, missing, found);
     cells.count_observation(cell_of(seen.patch), side_of(seen.patch));
     const GainOutcome kind = {.source = patch.source,
                               .observations = observation_bin(patch),

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/tour/certainty.hpp"
 #include "planner/tour/surface_cells.hpp"
 
 namespace gnbv {
@@ -62,6 +63,7 @@ constexpr std::size_t observation_bin(const Patch& patch) {
 struct SeenPatch {
   PatchId patch = 0;
   std::uint8_t incidence = 0;  // incidence_bin()
+  std::uint8_t certainty = 0;  // certainty_bin()
 };
 
 /// The share of a patch's missing voxels that an observation can be expected to bring, learned in
@@ -71,22 +73,23 @@ class ObservationYield {
  public:
   ObservationYield();
 
-  float share(const Patch& patch, std::size_t incidence) const {
-    return patch.reliability * shares_[index(patch, incidence)];
+  float share(const Patch& patch, const SeenPatch& how) const {
+    return patch.reliability * shares_[index(patch, how)];
   }
   /// Small voxels that one observation of the patch, face on, can be expected to bring.
-  float face_on_gain(const Patch& patch) const { return patch.missing * share(patch, 0); }
+  float face_on_gain(const Patch& patch) const { return patch.missing * share(patch, {}); }
   /// What became of an observation: `missing` voxels before, `found` of them after.
-  void learn(const Patch& patch, std::size_t incidence, double missing, double found);
+  void learn(const Patch& patch, const SeenPatch& how, double missing, double found);
 
  private:
-  static std::size_t index(const Patch& patch, std::size_t incidence) {
+  static std::size_t index(const Patch& patch, const SeenPatch& how) {
     const std::size_t kind =
         static_cast<std::size_t>(patch.source) * kObservationBins + observation_bin(patch);
-    return (kind * kIncidenceBins + incidence) * kPointBins + patch.points;
+    const std::size_t view = how.certainty * kIncidenceBins + how.incidence;
+    return (kind * kIncidenceBins * kCertaintyBins + view) * kPointBins + patch.points;
   }
   static constexpr std::size_t kBins =
-      kPatchSources * kObservationBins * kIncidenceBins * kPointBins;
+      kPatchSources * kObservationBins * kIncidenceBins * kCertaintyBins * kPointBins;
 
   std::array<double, kBins> tries_{};
   std::array<double, kBins> hits_{};

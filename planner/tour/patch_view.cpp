@@ -214,7 +214,8 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
       if (range_m < range_min_m || range_m > range_max_m_) continue;
       const float cosine = patch.normal.dot(origin_world_m_ - patch.target_m) / p.norm();
       if (cosine < cos_min || !is_before(p, cosine, bias_m)) continue;
-      seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine))});
+      const double share = certainty(camera, p.z(), SurfaceCells::kNear * scene.cells.detail_m());
+      seen.push_back({id, static_cast<std::uint8_t>(incidence_bin(cosine)), certainty_bin(share)});
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
@@ -35,9 +36,9 @@ struct Fit {
 /// - None is: nothing.
 std::optional<Fit> fit_points(const PointMoments& moments, double least_spread_m) {
   if (moments.count < 3.0) return std::nullopt;
-  const Vec3 mean_m = moments.sum_m / moments.count;
+  const Vec3 mean_m = moments.mean_m();
   const Eigen::Matrix3d covariance =
-      moments.squares_m2 / moments.count - mean_m * mean_m.transpose();
+      moments.squares_m2 / moments.weight - mean_m * mean_m.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const double least_m2 = least_spread_m * least_spread_m;
   if (solver.eigenvalues()[1] >= least_m2) return Fit{mean_m, solver.eigenvectors().col(0), {}};
@@ -46,6 +47,15 @@ std::optional<Fit> fit_points(const PointMoments& moments, double least_spread_m
   const Vec3 axis = solver.eigenvectors().col(2);
   const Vec3 level = axis.cross(Vec3::UnitZ());
   return Fit{mean_m, level.norm() > 0.1 ? Vec3(level.normalized()) : Vec3::UnitX(), axis};
+}
+
+/// Of points of this certainty, that share: which ones, their coordinates decide.
+bool is_near(double share, const Vec3f& p_m) {
+  const auto bits = [&](int axis) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(p_m[axis])};
+  };
+  const std::uint64_t drawn = mix_bits(bits(0) ^ mix_bits(bits(1) ^ mix_bits(bits(2))));
+  return static_cast<double>(drawn >> 11) * 0x1.0p-53 < share;
 }
 
 GridGeometry lattice_of(const Box3& workspace_m, double detail_m) {
@@ -82,19 +92,21 @@ double plane_section_area(const Vec3& normal, double distance, double edge) {
   return edge * edge * std::max(0.0, sum / (2.0 * n.prod()));
 }
 
-void PointMoments::add(const Vec3& p_m) {
+void PointMoments::add(const Vec3& p_m, double point_weight) {
   count += 1.0;
-  sum_m += p_m;
-  squares_m2 += p_m * p_m.transpose();
+  weight += point_weight;
+  sum_m += point_weight * p_m;
+  squares_m2 += point_weight * (p_m * p_m.transpose());
 }
 
 void PointMoments::add(const PointMoments& other, const Vec3& offset_m) {
   if (other.count == 0.0) return;
   count += other.count;
-  sum_m += other.sum_m + other.count * offset_m;
+  weight += other.weight;
+  sum_m += other.sum_m + other.weight * offset_m;
   squares_m2 += other.squares_m2 + other.sum_m * offset_m.transpose() +
                 offset_m * other.sum_m.transpose() +
-                other.count * (offset_m * offset_m.transpose());
+                other.weight * (offset_m * offset_m.transpose());
 }
 
 SurfaceCells::SurfaceCells(const Box3& workspace_m, double detail_m)
@@ -137,13 +149,24 @@ PointMoments SurfaceCells::moments_around(const Key& key) const {
   return sum;
 }
 
+/// Standard deviation of the noise of the cell's points, from the share of them that lies near the
+/// surface: of a Gaussian error that is sqrt(2 / pi) near / sigma, where it is small. 0: they are
+/// as good as exact.
+double SurfaceCells::noise_m(const SurfaceCell& cell) const {
+  const double share = std::sqrt(cell.moments.weight / cell.moments.count);
+  return share > 0.6 ? 0.0 : kNear * detail_m_ * std::sqrt(2.0 / kPi) / share;
+}
+
 /// Own points say best where the surface is, if they spread; else those around.
 void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
   constexpr double kEnoughPoints = 12.0;
   const double least_spread_m = 0.15 * edge_m();
   std::optional<Fit> found;
   if (cell.moments.count >= kEnoughPoints) found = fit_points(cell.moments, 1.3 * least_spread_m);
-  if (!found || found->axis) found = fit_points(moments_around(cell.key), least_spread_m);
+  const bool is_noisy = !cell.is_extrapolated() && noise_m(cell) > 0.0;
+  if (!found || found->axis || is_noisy) {
+    found = fit_points(moments_around(cell.key), least_spread_m);
+  }
   const std::uint64_t expected_before = cell.expected;
   cell.expected = 0;
   cell.is_bar = found && found->axis;
@@ -151,8 +174,11 @@ void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
     const bool is_turned = cell.normal.dot(found->normal.cast<float>()) < 0.0F;
     cell.normal = ((is_turned ? -1.0 : 1.0) * found->normal).cast<float>();
     // with own points few, the plane has to go through them
-    const Vec3 mean_m =
-        cell.is_extrapolated() ? found->mean_m : Vec3(cell.moments.sum_m / cell.moments.count);
+    Vec3 mean_m = cell.is_extrapolated() ? found->mean_m : cell.moments.mean_m();
+    // points that may be the noise of the surface around are
+    if (is_noisy && std::fabs(found->normal.dot(mean_m - found->mean_m)) < 2.0 * noise_m(cell)) {
+      mean_m = found->mean_m;
+    }
     cell.on_plane_m = (lattice_.center_m(cell.key) + mean_m).cast<float>();
     cell.is_bar ? expect_bar(cell, *found->axis) : expect_section(cell);
     const Vec3 middle_m = cell.on_plane_m.cast<double>();
@@ -222,17 +248,22 @@ void SurfaceCells::place_discs(SurfaceCell& cell) const {
 }
 
 void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid,
-                       int threads, const HeedStop& stop, bool covers) {
+                       int threads, const HeedStop& stop, bool covers,
+                       std::span<const float> certainty) {
   ++version_;
   std::vector<std::uint32_t> touched;
-  for (const Vec3f& point_m : points_world_m) {
+  for (std::size_t i = 0; i < points_world_m.size(); ++i) {
+    const Vec3f& point_m = points_world_m[i];
     const Key key = lattice_.key_of(point_m);
     if (!lattice_.contains(key)) continue;
     const std::uint32_t index = cell_at(key);
     SurfaceCell& cell = cells_[index];
     const Vec3 from_center_m = point_m.cast<double>() - lattice_.center_m(key);
-    cell.moments.add(from_center_m);
-    if (covers) cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
+    const double share = certainty.empty() ? 1.0 : certainty[i];
+    cell.moments.add(from_center_m, share * share);
+    if (covers && is_near(share, point_m)) {
+      cell.covered |= std::uint64_t{1} << bit_at(from_center_m);
+    }
     if (touched.empty() || touched.back() != index) touched.push_back(index);
   }
   sort_unique(touched);

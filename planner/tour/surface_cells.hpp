@@ -23,10 +23,12 @@ double plane_section_area(const Vec3& normal, double distance, double edge);
 /// Sums over points, relative to their cell's centre.
 struct PointMoments {
   double count = 0.0;
+  double weight = 0.0;  // of all points; the sums below are of weighted ones
   Vec3 sum_m = Vec3::Zero();
   Eigen::Matrix3d squares_m2 = Eigen::Matrix3d::Zero();
 
-  void add(const Vec3& p_m);
+  Vec3 mean_m() const { return sum_m / weight; }
+  void add(const Vec3& p_m, double point_weight = 1.0);
   /// The other's, whose centre lies at `offset_m` from ours.
   void add(const PointMoments& other, const Vec3& offset_m);
 };
@@ -64,15 +66,20 @@ void for_each_voxel(std::uint64_t mask, const Use& use) {
 
 class SurfaceCells {
  public:
+  /// Within this share of a small voxel's edge a point is accurate (score's accurate coverage).
+  static constexpr double kNear = 0.2;
+
   /// Throws BadInput naming planner.tour.detail_m when its lattice does not fit the workspace.
   SurfaceCells(const Box3& workspace_m, double detail_m);
 
   /// Adds points, and fits again what they change. Cells beside those with points are extrapolated
   /// along the plane, but not into space that the map knows to be free. Points that lie along a
   /// line and on no plane are those of a thin bar. `covers`: whether the voxels with the points
-  /// hold one from now on, or are only expected to.
+  /// hold one from now on, or are only expected to. `certainty`: of each point, the probability
+  /// that it lies within kNear of the surface; none given: all do. A point weighs as its square,
+  /// the inverse of its variance, and covers as often as it lies there.
   void add(std::span<const Vec3f> points_world_m, const OccupancyGrid& grid, int threads,
-           const HeedStop& stop = {}, bool covers = true);
+           const HeedStop& stop = {}, bool covers = true, std::span<const float> certainty = {});
   /// Drops extrapolated cells that the map has found free, and finds the boundaries anew: unknown
   /// voxels beside free and occupied ones, where the cells expect nothing.
   void follow_map(const OccupancyGrid& grid);
@@ -93,6 +100,7 @@ class SurfaceCells {
  private:
   std::uint32_t cell_at(const Key& key);
   PointMoments moments_around(const Key& key) const;
+  double noise_m(const SurfaceCell& cell) const;
   void fit(SurfaceCell& cell, const OccupancyGrid& grid) const;
   void expect_section(SurfaceCell& cell) const;
   void expect_bar(SurfaceCell& cell, const Vec3& axis) const;

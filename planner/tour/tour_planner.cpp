@@ -52,7 +52,7 @@ bool has_frames_between(const PlannerModel& model) {
 
 /// What the frames since the last plan saw of the patches of that plan, each patch once.
 std::vector<SeenPatch> seen_since(const Step& step) {
-  TourState& state = step.state;
+  const TourState& state = step.state;
   std::vector<FramePose> kept(step.model.cameras.size(), {.camera = -1});
   std::vector<FramePose> looks;
   for (const FramePose& look : std::span(step.belief.frame_poses).subspan(state.frames_taken)) {
@@ -62,13 +62,14 @@ std::vector<SeenPatch> seen_since(const Step& step) {
                         Eigen::AngleAxisd(T_last_look.linear()).angle() > kLook_rad;
     if (is_new) looks.push_back(last = look);
   }
-  state.frames_taken = step.belief.frame_poses.size();
-  return state.visibility.observe(step.scene(), looks, step.scratch.threads);
+  return step.state.visibility.observe(step.scene(), looks, step.scratch.threads);
 }
 
 /// Adds what the last view brought to the surface, and learns from it.
 void update_surface(const Step& step) {
   TourState& state = step.state;
+  const std::span<const FramePose> looks =
+      std::span(step.belief.frame_poses).subspan(state.frames_taken);
   if (has_frames_between(step.model)) {
     state.calibration.note(seen_since(step), state.patches, state.cells);
   }
@@ -79,7 +80,10 @@ void update_surface(const Step& step) {
       step.belief.ranged.points_world_m().subspan(state.ranged_taken);
   state.ranged_taken += ranged.size();
   state.cells.add(ranged, step.belief.grid, step.scratch.threads, step.stop, false);
-  state.cells.add(fresh, step.belief.grid, step.scratch.threads, step.stop);
+  state.cells.add(
+      fresh, step.belief.grid, step.scratch.threads, step.stop, true,
+      certainties(fresh, looks, step.model.cameras, SurfaceCells::kNear * state.cells.detail_m()));
+  state.frames_taken = step.belief.frame_poses.size();
   const Gain gain = state.calibration.settle(state.cells);
   const bool is_short = gain.found < step.config.replan_below * gain.predicted;
   if (is_short && gain.predicted - gain.found > step.price()) state.is_due = true;

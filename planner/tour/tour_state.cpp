@@ -60,9 +60,9 @@ std::vector<Offer> find_offers(const TourConfig& config, const TourState& state,
         const std::uint32_t item = item_of[seen.patch];
         if (item == kNoItem) continue;
         // without a double cover, what it may miss is in the weight
-        const float share = config.double_cover ? state.calibration.yield().share(
-                                                      state.patches[seen.patch], seen.incidence)
-                                                : 1.0F;
+        const float share = config.double_cover
+                                ? state.calibration.yield().share(state.patches[seen.patch], seen)
+                                : 1.0F;
         observations.push_back({item, std::min(kSuccessMax, share)});
         gain += problem.weight[item] * observations.back().success;
       }

@@ -54,10 +54,11 @@ void for_each_direction(const CameraModel& camera, const Vec3& normal, const Use
   }
 }
 
-/// Of each patch the best incidence, by patch.
+/// Of each patch the surest observation, of these the one of the best incidence, by patch.
 void keep_best(std::vector<SeenPatch>& seen) {
   std::sort(seen.begin(), seen.end(), [](const SeenPatch& a, const SeenPatch& b) {
-    return a.patch != b.patch ? a.patch < b.patch : a.incidence < b.incidence;
+    return std::tie(a.patch, a.certainty, a.incidence) <
+           std::tie(b.patch, b.certainty, b.incidence);
   });
   const auto is_same = [](const SeenPatch& a, const SeenPatch& b) { return a.patch == b.patch; };
   seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
