@@ -161,9 +161,8 @@ class Sequence {
 
   /// What turning off at b costs a vehicle in motion, up to 1.6 s where it comes back.
   double corner_s(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return turn_off_s(pose(b).p_world_m - pose(a).p_world_m, pose(c).p_world_m - pose(b).p_world_m);
-  }
-  static double turn_off_s(const Vec3& in_m, const Vec3& out_m) {
+    const Vec3 in_m = pose(b).p_world_m - pose(a).p_world_m;
+    const Vec3 out_m = pose(c).p_world_m - pose(b).p_world_m;
     const double scale_m2 = in_m.norm() * out_m.norm();
     if (scale_m2 == 0.0) return 0.0;
     constexpr double kBack_s = 1.6;
@@ -171,9 +170,7 @@ class Sequence {
   }
 
   double seconds() const {
-    if (order_.empty()) return 0.0;
-    double sum_s =
-        turn_off_s(problem_->towards_m, pose(order_.front()).p_world_m - problem_->start.p_world_m);
+    double sum_s = 0.0;
     for (std::size_t i = 0; i < order_.size(); ++i) {
       sum_s += between(before(i), order_[i]);
       if (i > 0) sum_s += corner_s(before(i - 1), before(i), order_[i]);

@@ -18,7 +18,6 @@ struct TimedProblem {
   const OrienteeringProblem* views = nullptr;
   std::span<const ViewPose> poses;  // of the views
   ViewPose start;
-  Vec3 towards_m = Vec3::Zero();  // where a vehicle in motion was going, from the start; 0: at rest
   const TravelConfig* travel = nullptr;
   /// The view that a frame at a pose on the way stands for; nothing where none does. Empty: there
   /// are no frames on the way.

@@ -128,9 +128,6 @@ std::vector<std::uint32_t> solve_in_seconds(const Step& step, TourProblem& task,
   }
   TimedProblem problem{
       .views = &task.problem, .poses = poses, .start = step.current, .travel = &step.model.travel};
-  if (!state.tour.empty()) {
-    problem.towards_m = state.tour.front().pose.p_world_m - step.current.p_world_m;
-  }
   if (has_frames_between(step.model)) {
     problem.view_at = [&](const ViewPose& pose) -> std::optional<std::uint32_t> {
       const Roadmap::Node node = state.roadmap.nearest(pose.p_world_m);
