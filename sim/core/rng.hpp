@@ -26,6 +26,7 @@ enum class Stream : std::uint64_t {
   dropped_frame = 13,
   tour_search = 20,
   area_sample = 21,
+  near_point = 22,
 };
 
 struct RandomKey {
