@@ -216,7 +216,7 @@ void set_opencv(const Calibration& from, CameraConfig& camera) {
   const Value* fisheye = from.find({"fisheye_model", "fisheye"});
   if (fisheye != nullptr && (fisheye->text == "1" || fisheye->text == "true")) {
     if (listed.size() == 4) return set_distortion(Distortion::kannala_brandt, listed, camera);
-    from.fail(from.find(key), *key.begin(), "a fisheye's are four");
+    from.fail(from.find(key), *key.begin(), "a fisheye has four coefficients");
   }
   for (std::size_t i = kCoefficients.size(); i < listed.size(); ++i) {
     if (listed[i] == 0.0) continue;

@@ -21,9 +21,10 @@ void fields(const Keys& key, MeshFileConfig& c) {
   const Keys of_mesh = key.only_if(!c.path.empty(), ".path");
   of_mesh("scale", c.scale, positive(1e6), "Factor on the file's coordinates.");
   of_mesh.angle("yaw_deg", c.yaw_rad, {-360, 360},
-                "About the file's origin; from above, counter-clockwise.");
-  of_mesh("offset_m", c.offset_m, {-1e8, 1e8},
-          "Added after scaling, world axes; survey coordinates are millions of metres.");
+                "Turn about the file's origin, counter-clockwise when seen from above.");
+  of_mesh(
+      "offset_m", c.offset_m, {-1e8, 1e8},
+      "Added after scaling, along the world's axes. Survey coordinates may be millions of metres.");
   of_mesh("up_axis", c.up_axis, kUpAxes,
           "Axis of the file that points up; auto: as the file says, else z.");
   of_mesh("unit_m", c.unit_m, {0, 1e6},
@@ -39,7 +40,8 @@ void fields(const Keys& key, StructureConfig& c) {
   key.section("file", c.file, "A mesh of your own.");
   key.list("files", c.files, {0, 256}, "More meshes of the same structure, each placed by itself.");
   key("offset_m", c.offset_m, {-1e4, 1e4},
-      "Moves all of the structure, a built-in one, too; world axes. `--mesh` sets it to 0.");
+      "Moves the whole structure, also a built-in one, along the world's axes. `--mesh` sets it to "
+      "0.");
   key("ground", c.ground, "Whether the plane z = 0 is solid ground, where no terrain is given.");
 }
 
@@ -53,19 +55,19 @@ void fields(const Keys& key, NoFlyConfig& c) { fields(key, c.box_m); }
 void fields(const Keys& key, ScoreConfig& c) {
   using enum ScoreReference;
   key("reference", c.reference, {{outside, "outside"}, {area_samples, "area_samples"}},
-      "Voxels that coverage counts: with surface that sees out, or with a point of a sparse sample "
-      "of all surface, as the paper's authors count.");
+      "Which voxels coverage counts. outside: those with visible surface; area_samples: those with "
+      "a point of a sparse sample of all surface, as the paper's authors count.");
   key.only_if(c.reference == area_samples, ".reference")(
       "area_samples", c.area_samples, {1, 1e7},
-      "Points of that sample, drawn by area above planner.floor_z_m; the same for all missions.");
+      "Number of points of that sample, drawn by area above planner.floor_z_m. All missions have "
+      "the same points.");
   key.of_papers_setting().section("region_m", c.region_m, "What is scored, world ENU.");
   key("sizes_m", c.sizes_m, {0.01, 10},
       "Edges of the voxels of which coverage is shown; the paper's 0.05, 0.10 and 0.50 are always "
       "measured.");
   key("budget_views", c.budget_views, {1, 1e6},
-      "Mean coverage is over this many views, whatever a mission flew; what is reached later "
-      "counts "
-      "as not reached.");
+      "Mean coverage is taken over this many views, however many a mission flew. A share that is "
+      "reached later counts as not reached.");
   key("budget_m", c.budget_m, positive(1e6), "The same in metres from the first view on.");
   key("budget_s", c.budget_s, positive(1e7), "The same in seconds from the end of the profile on.");
 }
@@ -80,36 +82,43 @@ void fields(const Keys& key, StartConfig& c) {
   }
   key("position_m", c.pose.p_world_m, {-1e4, 1e4}, "Where the views begin, world ENU.");
   key.angle("yaw_deg", c.pose.yaw_rad, {-360, 360}, "Heading there, 0 = east, 90 = north.");
-  key("jitter_m", c.jitter_m, {0, 1e4}, "The seed moves it by up to this, in the navigation box.");
-  key.angle("jitter_yaw_deg", c.jitter_yaw_rad, {0, 180}, "The seed turns it by up to this.");
-  key("on_ground", c.on_ground, "Takes off from the ground below it; else begins there, hovering.");
+  key("jitter_m", c.jitter_m, {0, 1e4},
+      "The seed moves the start by up to this, within the navigation box.");
+  key.angle("jitter_yaw_deg", c.jitter_yaw_rad, {0, 180},
+            "The seed turns the start by up to this.");
+  key("on_ground", c.on_ground,
+      "The mission takes off from the ground below the start; false: it begins at the start, "
+      "hovering.");
 }
 
 void fields(const Keys& key, BenchmarkConfig& c) {
   key("stop_at_coverage", c.stop_at_coverage, {0, 1},
-      "Over when the cloud covers this share of the voxels of 0.05 m that score.reference counts, "
-      "coverage.final in summary.json; 0: never.");
+      "The mission ends when the cloud covers this share of the voxels of 0.05 m that "
+      "score.reference counts (coverage.final in summary.json); 0: never.");
 }
 
 void fields(const Keys& key, Scenario& c) {
   const Keys papers = key.of_papers_setting();
   key.word("name", c.name, "Name of the scenario, for reports.");
-  key("seed", c.seed, "Moves the start pose and keys all noise.");
-  papers.section("workspace_m", c.workspace_m, "What is mapped and flown in, world ENU.");
-  key.section("structure", c.structure, "What stands there.");
-  papers.section("terrain", c.terrain, "A mesh in the place of the plane ground; not scored.");
-  papers.list("obstacles", c.obstacles, {0, 256}, "What is seen, solid, unknown and not scored.");
+  key("seed", c.seed, "Moves the start pose; all random numbers come from it.");
+  papers.section("workspace_m", c.workspace_m, "The box that is mapped and flown in, world ENU.");
+  key.section("structure", c.structure, "What is reconstructed and scored.");
+  papers.section("terrain", c.terrain, "A mesh instead of the plane ground; it is not scored.");
+  papers.list("obstacles", c.obstacles, {0, 256},
+              "Meshes and boxes that are seen and solid. The planner does not know them, and they "
+              "are not scored.");
   papers.list("no_fly", c.no_fly, {0, 256},
-              "Boxes that the collision sphere keeps out of; unseen.");
+              "Boxes that the collision sphere keeps out of. No sensor sees them.");
   key.section("score", c.score, "What is scored.");
   papers.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
   papers.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
   key.section("vehicle", c.vehicle, "What flies.");
-  key.section("guidance", c.guidance, "How it flies from view to view.");
-  papers.section("wind", c.wind, "The air it flies in.");
+  key.section("guidance", c.guidance, "How the vehicle flies from view to view.");
+  papers.section("wind", c.wind, "The air that the vehicle flies in.");
   key.section("start", c.start, "Where the views begin.");
   key.section("planner", c.planner, "What is believed and decided.");
-  papers.section("benchmark", c.benchmark, "What the truth decides, which no real mission knows.");
+  papers.section("benchmark", c.benchmark,
+                 "What is decided on the true surface, which no real mission knows.");
 }
 
 }  // namespace gnbv

@@ -17,9 +17,10 @@ void preset(const Keys& key, Config& c, std::string_view folder) {
 template <typename Config>
 void mounting(const Keys& key, Config& c) {
   constexpr Range kPitch_deg = {-90, 90};
-  constexpr std::string_view kPitch = "Turn about body y, the second: positive tilts down.";
-  key("p_body_m", c.p_body_m, {-10, 10}, "Where it sits, body FLU.");
-  key.angle("roll_deg", c.roll_rad, {-180, 180}, "Turn about body x, the first.");
+  constexpr std::string_view kPitch = "Turn about body y, made second; positive tilts down.";
+  key("p_body_m", c.p_body_m, {-10, 10},
+      "Where the sensor sits, in the body's axes: forward, left, up.");
+  key.angle("roll_deg", c.roll_rad, {-180, 180}, "Turn about body x, made first.");
   if constexpr (std::is_same_v<Config, CameraConfig>) {
     key.angle_or_section("pitch_deg", c.pitch_rad, kPitch_deg, c.gimbal, kPitch,
                          "A gimbal: the pitches that every view may choose from.");
@@ -27,28 +28,32 @@ void mounting(const Keys& key, Config& c) {
   } else {
     key.angle("pitch_deg", c.pitch_rad, kPitch_deg, kPitch);
   }
-  key.angle("yaw_deg", c.yaw_rad, {-180, 180}, "Turn about body z, the last: positive turns left.");
+  key.angle("yaw_deg", c.yaw_rad, {-180, 180},
+            "Turn about body z, made last; positive turns left.");
 }
 
 }  // namespace
 
 void fields(const Keys& key, RotorMount& c) {
-  key("p_body_m", c.p_body_m, {-10, 10}, "Where the rotor sits, body FLU.");
+  key("p_body_m", c.p_body_m, {-10, 10},
+      "Where the rotor sits, in the body's axes: forward, left, up.");
   key("spin", c.spin, {-1, 1}, "Seen from above: 1 turns counter-clockwise, -1 clockwise.");
 }
 
 void fields(const Keys& key, AirframeParameters& c) {
-  key("mass_kg", c.mass_kg, positive(1e3), "Of the whole vehicle.");
-  key("inertia_kg_m2", c.inertia_kg_m2, positive(1e3), "Diagonal, body axes.");
+  key("mass_kg", c.mass_kg, positive(1e3), "Mass of the whole vehicle.");
+  key("inertia_kg_m2", c.inertia_kg_m2, positive(1e3),
+      "Diagonal of the inertia, in the body's axes.");
   key.list("rotors", c.rotors, {kLeastRotors, kMostRotors},
            "Four to eight, in any layout around the centre of mass; presets are in PX4's order.");
   key("thrust_coefficient_n_s2", c.thrust_coefficient_n_s2, positive(1),
-      "Thrust at rest over the square of the rotor speed.");
-  key("moment_per_thrust_m", c.moment_per_thrust_m, {0, 1}, "Reaction torque over thrust at rest.");
+      "Thrust at rest, divided by the square of the rotor speed.");
+  key("moment_per_thrust_m", c.moment_per_thrust_m, {0, 1},
+      "Reaction torque, divided by thrust, at rest.");
   key("drag_coefficient_n_s2_per_m", c.drag_coefficient_n_s2_per_m, {0, 1},
-      "Rotor drag over rotor speed times in-plane velocity.");
+      "Rotor drag, divided by rotor speed times in-plane velocity.");
   key("rolling_coefficient_n_s2", c.rolling_coefficient_n_s2, {0, 1e-4},
-      "Rolling moment over rotor speed times in-plane velocity.");
+      "Rolling moment, divided by rotor speed times in-plane velocity.");
   key("rolling_follows_spin", c.rolling_follows_spin,
       "Whether the rolling moment changes sign with the rotor's spin.");
   using enum ThrustLoss;
@@ -57,13 +62,15 @@ void fields(const Keys& key, AirframeParameters& c) {
       "Which speed of a rotor through the air takes thrust from it.");
   key("thrust_loss_limit_m_s", c.thrust_loss_limit_m_s, positive(1e3),
       "The speed at which no thrust is left.");
-  key("time_constant_up_s", c.time_constant_up_s, positive(10), "Of a rotor that gains speed.");
-  key("time_constant_down_s", c.time_constant_down_s, positive(10), "Of a rotor that loses speed.");
+  key("time_constant_up_s", c.time_constant_up_s, positive(10),
+      "Time constant of a rotor that gains speed.");
+  key("time_constant_down_s", c.time_constant_down_s, positive(10),
+      "Time constant of a rotor that loses speed.");
   key("idle_speed_rad_s", c.idle_speed_rad_s, {0, 1e4}, "Rotor speed at command 0.");
   key("command_gain_rad_s", c.command_gain_rad_s, positive(1e5), "Rotor speed added by command 1.");
   key("gravity_m_s2", c.gravity_m_s2, positive(100), "Acceleration of free fall.");
-  key("hull_radius_m", c.hull_radius_m, positive(10), "Of the collision cylinder.");
-  key("hull_height_m", c.hull_height_m, positive(10), "Of the collision cylinder.");
+  key("hull_radius_m", c.hull_radius_m, positive(10), "Radius of the collision cylinder.");
+  key("hull_height_m", c.hull_height_m, positive(10), "Height of the collision cylinder.");
 }
 
 void fields(const Keys& key, CommanderParameters& c) {
@@ -97,7 +104,7 @@ void fields(const Keys& key, AutopilotParameters& c) {
   key("rate_integral_max", c.rate_integral_max, kShare, "MC_RR_INT_LIM and its twins.");
   key.angle("rate_integral_fade_deg_s", c.rate_integral_fade_rad_s, positive(1e5),
             "Rate error beyond which nothing is integrated.");
-  key.section("commander", c.commander, "What clients set, too, by PX4's names.");
+  key.section("commander", c.commander, "What clients may also set, by PX4's names.");
 }
 
 void fields(const Keys& key, PowerParameters& c) {
@@ -108,15 +115,16 @@ void fields(const Keys& key, PowerParameters& c) {
   key("c4", c.c4, kAny, "Parasitic power (Liu et al. 2017).");
   key("battery_wh", c.battery_wh, {0, 1e5}, "Usable energy; 0: never empty.");
   key.of_papers_setting()("return_home", c.return_home,
-                          "The mission ends landed at the start: in time, if there is a battery.");
+                          "The mission ends with a flight home and a landing at the start; with a "
+                          "battery, while the energy is enough.");
   key.only_if(c.return_home, ".return_home")
       .only_if(c.battery_wh > 0.0, ".battery_wh")(
           "reserve_share", c.reserve_share, {0, 0.9},
-          "return_home: share of the battery kept beyond what the way home takes.");
+          "return_home: share of the battery that is kept, beyond what the way home takes.");
 }
 
 void fields(const Keys& key, GnssOutage& c) {
-  key("start_s", c.start_s, {0, 1e6}, "Of the mission's time.");
+  key("start_s", c.start_s, {0, 1e6}, "When it begins, in the mission's time.");
   key("duration_s", c.duration_s, positive(1e6), "How long no satellite is received.");
 }
 
@@ -125,8 +133,9 @@ void fields(const Keys& key, RtkParameters& c) {
   key("horizontal_m", c.horizontal_m, kSigma_m, "Standard deviation of x and of y while fixed.");
   key("vertical_m", c.vertical_m, kSigma_m, "The same of z.");
   key.angle("heading_deg", c.heading_rad, {0, 90}, "The same of the heading, from two antennas.");
-  key("correlation_s", c.correlation_s, {0.1, 1e6}, "How long these errors last.");
-  key("float_m", c.float_m, kSigma_m, "What each axis errs more by in a long float solution.");
+  key("correlation_s", c.correlation_s, {0.1, 1e6}, "Correlation time of these errors.");
+  key("float_m", c.float_m, kSigma_m,
+      "Standard deviation that a long float solution adds to each axis.");
   key("fixed_mean_s", c.fixed_mean_s, {0.1, 1e9}, "Mean time until the fix is lost.");
   key("float_mean_s", c.float_mean_s, {0.1, 1e6}, "Mean time until it is back.");
 }
@@ -135,12 +144,12 @@ void fields(const Keys& key, EstimateConfig& c) {
   using enum EstimateModel;
   key("model", c.model,
       {{none, "none"}, {mocap, "mocap"}, {gnss, "gnss"}, {rtk, "rtk"}, {vio, "vio"}},
-      "none: the truth; else with the errors of motion capture, satellites (rtk: by phase) or "
-      "vision.");
+      "Where the vehicle believes itself to be. none: where it truly is; otherwise with the errors "
+      "of motion capture, satellites (rtk: by phase) or vision.");
   key.list("outages", c.outages, {0, 1000}, "gnss, rtk: times without satellites.");
   key.only_if(!c.outages.empty(), ".outages")(
       "outage_drift_m_per_sqrt_s", c.outage_drift_m_per_sqrt_s, {0, 100},
-      "Random walk of each axis without satellites, by this in 1 s, by twice this in 4 s.");
+      "Without satellites each axis drifts at random: by this in 1 s, by twice this in 4 s.");
   key.only_if(c.model == rtk, ".model").section("rtk", c.rtk, "rtk: how good the fixes are.");
 }
 
@@ -163,27 +172,36 @@ void fields(const Keys& key, VehicleConfig& c) {
 void fields(const Keys& key, GuidanceConfig& c) {
   using enum Trajectory;
   key.of_papers_setting()("trajectory", c.trajectory, {{legs, "legs"}, {smooth, "smooth"}},
-                          "From view to view: straight, with a stop at each; smooth: passes them.");
+                          "legs: straight from view to view, with a stop at each; smooth: a way "
+                          "that passes the views.");
   key("path_speed_m_s", c.path_speed_m_s, {0.01, 50}, "Top speed between views.");
   const Keys profiling = key.only_if(flies_a_profile, "planner.profiling.method");
-  profiling("profile_speed_m_s", c.profile_speed_m_s, {0.01, 50}, "Top speed of descents.");
-  key("acceleration_m_s2", c.acceleration_m_s2, {0.01, 50}, "Of speeding up and braking.");
+  profiling("profile_speed_m_s", c.profile_speed_m_s, {0.01, 50},
+            "Top speed while the LIDARs scan the profile.");
+  key("acceleration_m_s2", c.acceleration_m_s2, {0.01, 50},
+      "Acceleration when speeding up and braking.");
   key("jerk_m_s3", c.jerk_m_s3, {0.01, 1e3}, "Top rate of change of acceleration.");
   key.angle("yaw_rate_deg_s", c.yaw_rate_rad_s, {0.1, 1e3}, "Top turning speed.");
   key.angle("yaw_acceleration_deg_s2", c.yaw_acceleration_rad_s2, {0.1, 1e4},
             "Top acceleration of a turn.");
   key.angle("yaw_jerk_deg_s3", c.yaw_jerk_rad_s3, {0.1, 1e5}, "Top jerk of a turn.");
-  key("arrival_distance_m", c.arrival_distance_m, positive(10), "Arrived: nearer than this.");
-  key.angle("arrival_yaw_deg", c.arrival_yaw_rad, positive(180), "Arrived: turned up to this.");
-  key("arrival_speed_m_s", c.arrival_speed_m_s, positive(10), "Arrived: slower than this.");
+  key("arrival_distance_m", c.arrival_distance_m, positive(10),
+      "To have arrived, the vehicle must be nearer than this.");
+  key.angle("arrival_yaw_deg", c.arrival_yaw_rad, positive(180),
+            "To have arrived, the vehicle must be turned to within this.");
+  key("arrival_speed_m_s", c.arrival_speed_m_s, positive(10),
+      "To have arrived, the vehicle must be slower than this.");
   const Keys passing = key.only_if(c.trajectory == smooth, ".trajectory");
-  passing("pass_distance_m", c.pass_distance_m, positive(10), "smooth: a view passed this near.");
-  passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180), "smooth: turned up to this there.");
-  key.angle(
-      "image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
-      "Turns, and between views speed over the distance of the nearest known surface, keep below "
-      "this: blur allowed in pixels / (focal length in pixels * exposure time). 0: any.");
-  key("timeout_s", c.timeout_s, positive(3600), "A leg this much longer than planned is given up.");
+  passing("pass_distance_m", c.pass_distance_m, positive(10),
+          "smooth: how near to a view the way passes.");
+  passing.angle("pass_yaw_deg", c.pass_yaw_rad, positive(180),
+                "smooth: how far the heading may be off there.");
+  key.angle("image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
+            "How fast surface may cross the image. It limits turns, and between views the speed "
+            "divided by the distance of the nearest known surface. Set it to the blur allowed in "
+            "pixels / (focal length in pixels * exposure time). 0: no limit.");
+  key("timeout_s", c.timeout_s, positive(3600),
+      "A leg that takes this much longer than planned is given up.");
 }
 
 void fields(const Keys& key, WindConfig& c) {
@@ -191,7 +209,7 @@ void fields(const Keys& key, WindConfig& c) {
       "Velocity of the air, world ENU: [3, 0, 0] blows towards the east.");
   key("gust_w20_m_s", c.gust_w20_m_s, {0, 100},
       "Wind 20 ft above the ground, for Dryden's gusts: 7.7 light, 15.4 moderate, 23.2 severe; 0: "
-      "none. Height is z, over terrain, too.");
+      "no gusts. Height is z, also over terrain.");
 }
 
 void fields(const Keys& key, DepthNoiseConfig& c) {
@@ -202,10 +220,11 @@ void fields(const Keys& key, DepthNoiseConfig& c) {
        {khoshelham, "khoshelham"},
        {nguyen, "nguyen"},
        {stereo, "stereo"}},
-      "Law of the standard deviation over depth (sensors/depth_noise.hpp).");
+      "How the standard deviation grows with depth (sensors/depth_noise.hpp).");
   const Keys of_stereo = key.only_if(c.model == stereo, ".model");
-  of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: between the two lenses.");
-  of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10}, "stereo: standard deviation.");
+  of_stereo("baseline_m", c.baseline_m, {1e-3, 10}, "stereo: distance between the two lenses.");
+  of_stereo("disparity_noise_px", c.disparity_noise_px, {0, 10},
+            "stereo: standard deviation of the disparity.");
 }
 
 void fields(const Keys& key, DistortionConfig& c) {
@@ -215,18 +234,22 @@ void fields(const Keys& key, DistortionConfig& c) {
       {{none, distortion_name(none)},
        {brown_conrady, distortion_name(brown_conrady)},
        {kannala_brandt, distortion_name(kannala_brandt)}},
-      "OpenCV's: brown_conrady with k4 to k6 of the rational model; kannala_brandt, a fisheye, "
-      "whose ranges count along the ray.");
+      "A model of OpenCV's: brown_conrady, with k4 to k6 of the rational model; or kannala_brandt, "
+      "a fisheye. A fisheye's ranges count along the ray.");
   const Keys distorted = key.only_if(c.model != none, ".model");
   const Keys brown = distorted.only_if(c.model == brown_conrady, ".model");
-  distorted("k1", c.k1, kAny, "Radial, of the second power.");
-  distorted("k2", c.k2, kAny, "Radial, of the fourth power.");
-  distorted("k3", c.k3, kAny, "Radial, of the sixth power.");
-  distorted("k4", c.k4, kAny, "brown_conrady: of the divisor; kannala_brandt: the eighth power.");
-  brown("k5", c.k5, kAny, "brown_conrady: of the divisor, the fourth power.");
-  brown("k6", c.k6, kAny, "brown_conrady: of the divisor, the sixth power.");
-  brown("p1", c.p1, kAny, "brown_conrady: of a lens off its centre.");
-  brown("p2", c.p2, kAny, "brown_conrady: of a lens off its centre.");
+  distorted("k1", c.k1, kAny, "Radial coefficient of the second power.");
+  distorted("k2", c.k2, kAny, "Radial coefficient of the fourth power.");
+  distorted("k3", c.k3, kAny, "Radial coefficient of the sixth power.");
+  distorted("k4", c.k4, kAny,
+            "brown_conrady: the divisor's coefficient of the second power; kannala_brandt: of the "
+            "eighth power.");
+  brown("k5", c.k5, kAny, "brown_conrady: the divisor's coefficient of the fourth power.");
+  brown("k6", c.k6, kAny, "brown_conrady: the divisor's coefficient of the sixth power.");
+  brown("p1", c.p1, kAny,
+        "brown_conrady: first tangential coefficient, for a lens off its centre.");
+  brown("p2", c.p2, kAny,
+        "brown_conrady: second tangential coefficient, for a lens off its centre.");
   distorted.angle("max_angle_deg", c.max_angle_rad, {1, 85},
                   "What lies farther off the optical axis is not seen.");
 }
@@ -234,7 +257,7 @@ void fields(const Keys& key, DistortionConfig& c) {
 void fields(const Keys& key, GimbalConfig& c) {
   key.angle("min", c.min_rad, {-90, 90}, "The first pitch, degrees; negative looks up.");
   key.angle("max", c.max_rad, {-90, 90}, "No pitch is above this.");
-  key.angle("step", c.step_rad, {1, 180}, "From one pitch to the next.");
+  key.angle("step", c.step_rad, {1, 180}, "Step from one pitch to the next.");
 }
 
 void fields(const Keys& key, CameraConfig& c) {
@@ -244,30 +267,36 @@ void fields(const Keys& key, CameraConfig& c) {
   key("height_px", c.height_px, {1, 8192}, "Pixels per column.");
   std::string calibration;
   key.path("calibration", calibration,
-           "File of OpenCV, Kalibr (FILE#cam1: its second camera) or ROS camera_info, whose image "
-           "size, focal lengths, centre and distortion are these keys' values; a run keeps those.");
+           "Calibration file of OpenCV, Kalibr (FILE#cam1: its second camera) or ROS camera_info. "
+           "It sets image size, focal lengths, centre and distortion; a run keeps these values, "
+           "not the file.");
   if (!calibration.empty()) read_calibration(calibration, c);
   const Keys of_angles = key.only_if(c.fx_px == 0.0, ".fx_px");
   of_angles.angle("fov_x_deg", c.fov_x_rad, {1, 170},
                   "Horizontal field of view; given alone, pixels are square.");
   of_angles.angle("fov_y_deg", c.fov_y_rad, {1, 170},
                   "Vertical field of view; given alone, pixels are square.");
-  key("fx_px", c.fx_px, {0, 1e6}, "Focal length along a row; 0: of the field of view.");
+  key("fx_px", c.fx_px, {0, 1e6},
+      "Focal length along a row; 0: it follows from the field of view.");
   key("fy_px", c.fy_px, {0, 1e6}, "Focal length along a column; 0: as fx_px.");
   key("cx_px", c.cx_px, {0, 8192},
-      "Column of the optical axis, the first pixel's centre at 0.5; 0: the image's middle.");
+      "Column of the optical axis, where the first pixel's centre is 0.5; 0: the image's middle.");
   key("cy_px", c.cy_px, {0, 8192}, "Row of the optical axis; 0: the image's middle.");
-  key("skew_px", c.skew_px, {-1e4, 1e4}, "Added to the column, a focal length down the image.");
+  key("skew_px", c.skew_px, {-1e4, 1e4},
+      "Skew of the camera matrix: how many columns a point moves that lies one focal length down "
+      "the image.");
   key.section("distortion", c.distortion, "Of the lens.");
-  key("range_min_m", c.range_min_m, {0, 1e3}, "Along the optical axis; nearer ones are invalid.");
-  key("range_max_m", c.range_max_m, positive(1e3), "Along the optical axis; none is farther.");
+  key("range_min_m", c.range_min_m, {0, 1e3},
+      "Least range, along the optical axis; a nearer return is invalid.");
+  key("range_max_m", c.range_max_m, positive(1e3),
+      "Greatest range, along the optical axis; nothing returns from farther away.");
   key("return_max_m", c.return_max_m, {0, 1e3},
-      "Deeper surface gives no return, and planner.map.no_return says what that means; 0: all up "
-      "to "
-      "range_max_m returns.");
+      "Surface deeper than this gives no return; planner.map.no_return says what that means. 0: "
+      "all surface up to range_max_m returns.");
   key("rate_hz", c.rate_hz, {0, 250},
-      "Frames per second in flight, at most one per tick; 0: only one at each view.");
-  key("drop_probability", c.drop_probability, {0, 1}, "Of losing a frame, at a view or in flight.");
+      "Frames per second in flight, at most one per tick; 0: one at each view, none in flight.");
+  key("drop_probability", c.drop_probability, {0, 1},
+      "Probability that a frame is lost, at a view or in flight.");
   mounting(key, c);
   key.section("noise", c.noise, "Noise of the depth.");
 }
@@ -282,7 +311,7 @@ void fields(const Keys& key, LidarConfig& c) {
   key("range_max_m", c.range_max_m, positive(1e3), "Beyond there is no return.");
   mounting(key, c);
   key("range_sigma_m", c.range_sigma_m, {0, 10}, "Standard deviation of a range.");
-  key("rolling", c.rolling, "Whether the beams of a sweep follow one another, or all at once.");
+  key("rolling", c.rolling, "Whether the beams of a sweep follow one another; false: all at once.");
 }
 
 }  // namespace gnbv

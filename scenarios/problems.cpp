@@ -239,7 +239,7 @@ std::string clearing_note(const Scenario& scenario) {
                          camera.range_max_m);
   }
   if (where.empty()) return "";
-  return "surface too deep for a return is cleared through, as planner.map.no_return is free:" +
+  return "rays clear surface that is too deep for a return, as planner.map.no_return is free:" +
          where;
 }
 

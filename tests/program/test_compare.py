@@ -115,7 +115,7 @@ def test_compare_loses_no_more_than_the_ceiling_of_a_mesh_that_is_gone(run, tmp_
     ('compare smoke --utilities a,b --baseline c',
      ["'c': no method of this comparison; it has: a, b"]),
     ('compare smoke --utilities proposed --variant score.reference=area_samples',
-     ['score.reference', 'unlike voxels']),
+     ['score.reference', 'different voxels']),
     ('compare smoke --utilities proposed', []),
     ('compare smoke --utilities proposed,isler --seeds 0', []),
     ('compare --utilities proposed,isler', []),
@@ -147,8 +147,8 @@ def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     # every other form has the same rows and the command that repeats it
     for form in ('terminal', 'markdown', 'csv', 'latex'):
         run(f'{table} {form}', 'gnbv table smoke', 'seeds 2', 'Oracle, few metres',
-            'how many got there', 'on one battery', 'ours is of smoke, which is not known to be',
-            GNBV_CACHE='cache')
+            'how many got there', 'on one battery',
+            'our rows are of smoke, which is not known to be', GNBV_CACHE='cache')
 
 
 def test_table_flies_again_without_noise_what_lies_above_the_ceiling(run):

@@ -184,7 +184,7 @@ def test_lint_takes_several_meshes_and_ends_as_the_worst(run, tmp_path):
     assert run('lint good.obj good.obj', '2 meshes: 2 usable').out.startswith(f'{one}\n{one}')
     run('lint nan.obj good.obj', 'nan.obj:2: vertex 2', 'good.obj: usable',
         '1 usable, 1 not usable', code=1)
-    run('lint absent.obj nan.obj good.obj', 'good.obj: usable', '1 not to be looked at', code=2)
+    run('lint absent.obj nan.obj good.obj', 'good.obj: usable', '1 unreadable', code=2)
     meshes = run('lint --json nan.obj good.obj', code=1).json['meshes']
     assert [mesh['usable'] for mesh in meshes] == [False, True]
 

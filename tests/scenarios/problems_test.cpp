@@ -139,7 +139,7 @@ TEST(ClearingNote, IsOfCamerasWhoseReturnsEndBeforeWhatTheyClear) {
   EXPECT_EQ(note_of({"cameras.0.return_max_m=5", "planner.map.no_return=unknown"}), "");
   EXPECT_EQ(note_of({"cameras.0.return_max_m=8"}), "");
   EXPECT_EQ(note_of({"cameras.1.return_max_m=5"}),
-            "surface too deep for a return is cleared through, as planner.map.no_return is free: "
+            "rays clear surface that is too deep for a return, as planner.map.no_return is free: "
             "rgbd_up from 5 to 8 m");
   EXPECT_TRUE(note_of({"planner.preset=authors_2018"})
                   .ends_with("rgbd_down from 5 to 8 m, rgbd_up from 5 to 8 m"));

@@ -140,20 +140,22 @@ void add_asset_command(CLI::App& app) {
     return text.starts_with('-') ? text + ": is no whole number from 0 to 2^64 - 1" : "";
   };
   CLI::Option* const seed =
-      command->add_option("--seed", options->seed, "of `random`: which (1)")->check(is_no_minus);
+      command
+          ->add_option("--seed", options->seed, "of `random`: number of the structure (default: 1)")
+          ->check(is_no_minus);
   CLI::Option* const kind =
       command
           ->add_option("--kind", options->kind,
-                       "of `random`: hall, tower, ...; --list names them, else by the seed")
+                       "of `random`: hall, tower, ... (--list names them; default: by the seed)")
           ->check(is_one_of({kRandomKinds.begin(), kRandomKinds.end()}));
   CLI::Option* const drawn =
       command
           ->add_option(
               "--drawn-from", options->drawn_from,
-              "of `random`: a text, such as a frozen commit, whose SHA-256 with --kind and "
-              "--draw is the seed: held out from whoever froze it")
+              "of `random`: a text, such as a commit. Its SHA-256, with --kind and --draw, is the "
+              "seed. So nobody can have tuned to the structure before the commit was made")
           ->excludes(seed);
-  command->add_option("--draw", options->draw, "which of the draws (1)")
+  command->add_option("--draw", options->draw, "of --drawn-from: number of the draw (default: 1)")
       ->needs(drawn)
       ->check(CLI::Range(1, 1'000'000));
   CLI::Option* const list =

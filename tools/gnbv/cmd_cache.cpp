@@ -65,9 +65,9 @@ std::string text_of(const CacheState& state) {
     table.notes.push_back(fmt::format("Removed {} results of {}", state.removed->results,
                                       megabytes(state.removed->bytes)));
   }
-  table.notes.push_back(fmt::format(
-      "At most {} are kept (GNBV_CACHE_LIMIT, in bytes); what was not used for longest goes first",
-      megabytes(state.limit_bytes)));
+  table.notes.push_back(
+      fmt::format("At most {} are kept (GNBV_CACHE_LIMIT, in bytes); the longest unused go first",
+                  megabytes(state.limit_bytes)));
   return terminal_text(table);
 }
 
@@ -98,10 +98,10 @@ void cache(const CacheOptions& options) {
 void add_cache_command(CLI::App& app) {
   auto options = std::make_shared<CacheOptions>();
   CLI::App* const command = app.add_subcommand(
-      "cache", "say what is kept of true surfaces and ceilings in GNBV_CACHE; prune it");
+      "cache", "say which true surfaces and ceilings are kept in GNBV_CACHE; prune it");
   command->add_flag("--prune", options->prune,
-                    "remove what was not used for longest, down to the limit; other programs may "
-                    "run meanwhile");
+                    "remove results, the longest unused first, down to the limit; other programs "
+                    "may run meanwhile");
   command
       ->add_option("--limit", options->limit_bytes,
                    "for --prune: bytes, also 500MB or 2GiB; 0 removes all "

@@ -76,8 +76,8 @@ void ceiling(const CeilingOptions& options) {
 
 void add_ceiling_command(CLI::App& app) {
   auto options = std::make_shared<CeilingOptions>();
-  CLI::App* const command =
-      app.add_subcommand("ceiling", "print the most that any legal viewpoint can see");
+  CLI::App* const command = app.add_subcommand(
+      "ceiling", "print the most that any planner could cover from allowed positions");
   add_scenario_options(*command, options->scenario);
   command->get_option("SCENARIO")->description("built-in name, YAML file or run directory");
   add_threads_option(*command, options->threads);

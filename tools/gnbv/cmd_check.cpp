@@ -70,7 +70,7 @@ void update(const CheckOptions& options) {
     now = updated_baseline(run, of, before, options.against);
     const BaselineCheck check = check_against(before, options.against, run, of);
     if (const std::string worse = regressed_text(options, check); !worse.empty()) {
-      say("{}; from now on that is what is asked for", worse);
+      say("{}; the baseline asks for no more than that from now on", worse);
     }
   }
   write_file_atomically(options.against, to_json(now));

@@ -81,18 +81,18 @@ void add_compare_command(CLI::App& app) {
        add("--presets", methods.presets, "planner presets by name, with commas")->delimiter(','),
        add("--variant", methods.variants,
            "[NAME:]KEY=VALUE[,KEY=VALUE]... of the scenario file; repeatable"),
-       add("--vary", methods.varies, "KEY=VALUE[,VALUE]...: a method a value; repeatable"),
+       add("--vary", methods.varies, "KEY=VALUE[,VALUE]...: one method for each value; repeatable"),
        command->add_option("--views", request.views,
                            "body poses that the utility `route` flies, CSV or TUM")});
   command->add_option("--baseline", request.baseline,
-                      "method the others are tested against (default: the first)");
+                      "method that the others are tested against (default: the first)");
   command->add_option("--plots", options->plots,
                       "folder for plots: paired differences with intervals, and coverage over "
                       "metres of all methods");
-  CLI::Option* const no_ceiling = command->add_flag(
-      "--no-ceiling", options->bench.no_ceiling,
-      "leave out the shares of the ceiling and the efforts to reach them: where none "
-      "is known yet, each takes a minute");
+  CLI::Option* const no_ceiling =
+      command->add_flag("--no-ceiling", options->bench.no_ceiling,
+                        "leave out the shares of the ceiling, and the efforts to reach them. A "
+                        "ceiling that is not known yet takes a minute to find");
   add_bench_options(*command, options->bench);
   no_ceiling->excludes(command->get_option("--ceiling-at"));
   CLI::Option* const sweep =

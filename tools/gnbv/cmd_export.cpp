@@ -88,8 +88,8 @@ void fill_tum(const Export& e, const fs::path& folder) {
   const double steps_per_m = e.options.depth_factor.value_or(kTumDepthStepsPerM);
   const std::size_t too_far = write_tum(e.record, frames_if_kept(e.record), steps_per_m, folder);
   if (too_far > 0) {
-    say("{} pixels are deeper than the {:.1f} m that 16 bits hold of {} steps a metre, and are "
-        "written as none; --depth-factor takes fewer",
+    say("{} pixels are deeper than {:.1f} m, the most that 16 bits hold at {} steps per metre. "
+        "They are written as no depth; a smaller --depth-factor reaches farther",
         too_far, 65535.0 / steps_per_m, steps_per_m);
   }
 }
@@ -118,7 +118,7 @@ void note_changed_inputs(const RunRecord& record) {
     return;  // moved, as it may be
   }
   try {
-    need_same_inputs(record.folder, inputs, "what is written is of the one that it flew around");
+    need_same_inputs(record.folder, inputs, "the export is of the mesh that the run flew around");
   } catch (const BadInput& error) {
     say(std::string_view(error.what()));
   }
@@ -185,8 +185,8 @@ void add_export_command(CLI::App& app) {
   command->add_option("RUN", options->run, "run directory")->required();
   command
       ->add_option("--format", options->format,
-                   "of the folder that is written; images have the poses that the vehicle "
-                   "believed, in tum the true ones, too; rerun and mcap are written in Python")
+                   "format of the folder. Images have the poses that the vehicle believed; tum "
+                   "also has the true ones. rerun and mcap are written in Python")
       ->required()
       ->check(is_one_of(format_names()));
   command->add_option(
@@ -194,11 +194,11 @@ void add_export_command(CLI::App& app) {
       "folder to write (default: RUN/export/FORMAT); an earlier export is replaced");
   command
       ->add_option("--points", options->points,
-                   "most points of the sparse model (colmap, nerfstudio; default: 100000)")
+                   "most points in the sparse model (colmap, nerfstudio; default: 100000)")
       ->check(CLI::Range(1, 100'000'000));
   command
       ->add_option("--depth-factor", options->depth_factor,
-                   "steps a metre of depth images (tum; default: 5000, as the benchmark's own)")
+                   "steps per metre in depth images (tum; default: 5000, as in the TUM benchmark)")
       ->check(CLI::Range(1.0, 65535.0));
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet, "progress, no notes");

@@ -178,8 +178,7 @@ void fly(const FlyOptions& options) {
     say_ready(options, meeting, bound, scenario.vehicle, start);
   }
   const auto on_lag = [&options] {
-    say("this machine does not always keep up with --speed {}: the time that it is late "
-        "is not made up for",
+    say("this machine does not always keep up with --speed {}: it does not catch up lost time",
         options.speed);
   };
   const ServeResult result = serve(vehicle, aboard, stations,
@@ -220,8 +219,8 @@ void add_fly_command(CLI::App& app) {
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->urls,
-                   "udpout://HOST:PORT to speak to, or udpin://HOST:PORT to listen at (udp:// "
-                   "means the same), where port 0 finds a free one; may be given again")
+                   "udpout://HOST:PORT to speak to, or udpin://HOST:PORT (or udp://) to listen at; "
+                   "port 0 finds a free one; repeatable")
       ->allow_extra_args(false)
       ->capture_default_str();
   command

@@ -47,7 +47,7 @@ struct Tally {
 
 std::string sum_of(std::size_t meshes, const Tally& tally) {
   const std::size_t bad = tally.unusable.size() + tally.faults.size();
-  return fmt::format("{} meshes: {} usable, {} not usable as {}, {} not to be looked at\n", meshes,
+  return fmt::format("{} meshes: {} usable, {} not usable as {}, {} unreadable\n", meshes,
                      meshes - bad, tally.unusable.size(),
                      tally.unusable.size() == 1 ? "it is" : "they are", tally.faults.size());
 }
@@ -93,7 +93,7 @@ void add_lint_command(CLI::App& app) {
   command->add_option("MESH", options->meshes, "mesh files")->required();
   command
       ->add_option("--scenario", options->scenario.scenario,
-                   "scenario it is meant for: built-in name or YAML file")
+                   "scenario that the meshes are meant for: built-in name or YAML file")
       ->capture_default_str();
   command
       ->add_option("--set", options->scenario.overrides,

@@ -87,10 +87,12 @@ void add_paper_command(CLI::App& app) {
   command->add_option("--cells", options->bench.out,
                       "folder of the missions (default: runs/bench, which `table` and `compare` "
                       "share); those it holds are not flown again");
-  add_cells_options(*command, options->bench, "how many seeds a row, from --seed on");
-  command->add_option("--seed", options->first_seed, "the first one; pictures show it")
+  add_cells_options(*command, options->bench, "how many seeds for each row, from --seed on");
+  command->add_option("--seed", options->first_seed, "the first seed; pictures show its missions")
       ->capture_default_str();
-  command->add_option("--scenarios", options->scenarios, "some of the paper's, with commas")
+  command
+      ->add_option("--scenarios", options->scenarios,
+                   "some of the paper's scenarios, with commas (default: all)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(is_one_of(paper_scenarios()));

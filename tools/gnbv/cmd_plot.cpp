@@ -94,22 +94,22 @@ CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::stri
 }
 
 void add_look_options(CLI::App& command, PlotOptions& options) {
-  command.add_option("--title", options.figures.title, "in the place of each figure's own");
+  command.add_option("--title", options.figures.title, "title of each figure, instead of its own");
   add_list(command, "--labels", options.figures.labels,
            "GROUP=LABEL of the legend, with commas; a GROUP is its label, its utility, or its "
            "number from 1");
   add_list(command, "--colors", options.figures.colours, "GROUP=#rrggbb, with commas");
   add_list(command, "--order", options.figures.order,
            "GROUPs in the order of the legend, with commas; the others follow");
-  command.add_option("--font", options.style.font, "by its name, or a file .ttf or .otf");
+  command.add_option("--font", options.style.font, "font by its name, or a file .ttf or .otf");
   command
       .add_option("--width,--width-px", options.style.width_px,
-                  "in pixels; 1512 is one column of a paper at 432 dots an inch")
+                  "width in pixels; 1512 is one column of a paper at 432 dots an inch")
       ->check(CLI::Range(200, 8192))
       ->capture_default_str();
   command
       .add_option("--height,--height-px", options.style.height_px,
-                  "in pixels (default: what each figure asks for)")
+                  "height in pixels (default: as each figure needs)")
       ->check(CLI::Range(150, 8192));
 }
 
@@ -135,11 +135,10 @@ void add_plot_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--reach", options->figures.reach_percent,
-                   "percent of the ceiling that the reach figures ask for")
+                   "percent of the ceiling; the reach figures show the effort to get there")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command
-      ->add_option("--voxel", options->figures.voxel_m, "edge of the voxels that are covered (m)")
+  command->add_option("--voxel", options->figures.voxel_m, "edge of the voxels of the coverage (m)")
       ->check(is_positive())
       ->capture_default_str();
   add_look_options(*command, *options);

@@ -113,13 +113,15 @@ void add_report_command(CLI::App& app) {
   CLI::App* const command = app.add_subcommand(
       "report", "one offline page of runs: figures beside the paper's, plots, the mission in 3D");
   command->add_option("RUN", options->runs, "run directories, to compare if several")->required();
-  command->add_option("-o,--out", options->out,
-                      "HTML to write (default: RUN/report.html, of several runs report.html here)");
-  command->add_option("--title", options->report.title, "instead of the runs' own");
+  command->add_option(
+      "-o,--out", options->out,
+      "HTML to write (default: RUN/report.html; for several runs, report.html here)");
+  command->add_option("--title", options->report.title,
+                      "title of the page, instead of the runs' own");
   command
       ->add_option("--live", options->live_port,
-                   "PORT: serve the page to browsers of this machine instead, anew as the run "
-                   "grows, until Ctrl-C; 0: any free port")
+                   "PORT: write no page, but serve it to browsers of this machine until Ctrl-C; it "
+                   "grows with the run. 0: any free port")
       ->check(CLI::Range(0, 65535));
   add_threads_option(*command, options->report.threads, "the page does");
   add_quiet_option(*command, options->quiet, "progress");

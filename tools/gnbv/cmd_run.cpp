@@ -41,7 +41,7 @@ struct RunOptions {
 
 void need_route(const RunOptions& options, const Scenario& scenario) {
   if (options.mission.coverage && !options.mission.piped_views) {
-    throw BadInput("--coverage: tells it to whoever sends views: --views -");
+    throw BadInput("--coverage: goes with --views -, whose answers it adds to");
   }
   if (options.mission.piped_views && options.json) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
@@ -162,10 +162,10 @@ void add_run_command(CLI::App& app) {
       "utility by name, or a utility or planner of yours in Python: [NAME=]FILE.py[:FUNCTION]");
   command->add_option_function<std::string>(
       "--views", [options](const std::string& file) { set_views(file, *options); },
-      "with --utility route: body poses to fly, CSV or TUM; -: one a line from stdin, each "
-      "answered "
-      "by a line of JSON on stdout");
-  command->add_flag("--coverage", mission.coverage, "--views -: answers tell the true coverage");
+      "with --utility route: body poses to fly, CSV or TUM; -: one per line from stdin, each "
+      "answered by one line of JSON on stdout");
+  command->add_flag("--coverage", mission.coverage,
+                    "with --views -: answers tell the true coverage");
   add_preset_option(*command, options->scenario);
   command->add_option("--out", mission.out, "run directory (default: a new one under runs/)");
   add_threads_option(*command, mission.threads);
@@ -173,11 +173,12 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--resume", mission.resume, "continue the interrupted run in --out");
   command->add_flag("--frames", mission.frames, "also write what the cameras saw, to frames/");
   command->add_flag("--candidates", mission.candidates,
-                    "also write every candidate's terms or reason of rejection, and the "
+                    "also write the terms of every candidate, or why it was rejected, and the "
                     "voxels that each view was chosen for");
   command->add_flag_callback(
       "--ceiling", [options] { options->mission.ceiling = CeilingFrom::search; },
-      "find the ceiling, where no earlier command did, for the effort to reach it in summary.json");
+      "find the ceiling if no earlier command did, so that summary.json has the effort to reach "
+      "it");
   command
       ->add_option("--live", options->live_port,
                    "PORT: serve the report of the mission to browsers of this machine while it "

@@ -80,7 +80,7 @@ Scored score_folder(const ScoreOptions& options, int threads) {
                     options.target));
   }
   if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
-    throw BadInput("--box: the score of a part is not the run's: without --update and --ceiling");
+    throw BadInput("--box: scores a part, not the run; leave out --update and --ceiling");
   }
   std::optional<RunClaim> claim;  // nobody resumes it meanwhile
   if (options.update) claim.emplace(options.target);
@@ -131,10 +131,10 @@ void add_score_command(CLI::App& app) {
       ->required();
   command->add_option("--mesh", options->scenario.mesh, "mesh file that holds the true surface");
   command->add_option("--scenario", options->scenario.scenario,
-                      "its structure instead; built-in name or YAML file");
-  command->add_option("--floor-z", options->floor_z_m,
-                      "surface below this height (m) is not asked for, and points there are left "
-                      "out (default: the scenario's, 0.3)");
+                      "scenario whose structure is the true surface; built-in name or YAML file");
+  command->add_option(
+      "--floor-z", options->floor_z_m,
+      "surface and points below this height (m) do not count (default: the scenario's, 0.3)");
   command
       ->add_option("--set", options->scenario.overrides,
                    "KEY=VALUE of the scenario file; repeatable (structure.file.scale, .unit_m, "
@@ -147,8 +147,8 @@ void add_score_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--offset-m", options->offset_m,
-                   "x,y,z (m), added to all points of a cloud before anything is rounded: for map "
-                   "grids such as UTM, with structure.file.offset_m of the mesh")
+                   "x,y,z (m), added to all points of a cloud before anything is rounded. For map "
+                   "grids such as UTM, together with structure.file.offset_m of the mesh")
       ->delimiter(',')
       ->expected(3);
   command->add_option("--box", options->box_m, "x0,y0,z0,x1,y1,z1 (m): score only what lies inside")
@@ -160,7 +160,8 @@ void add_score_command(CLI::App& app) {
                     "put the score into the run's summary.json and coverage.csv");
   command->add_flag_callback(
       "--ceiling", [options] { options->wish.ceiling = CeilingFrom::search; },
-      "of a run: find the ceiling, where no earlier command did, for the effort to reach it");
+      "of a run: find the ceiling if no earlier command did, so that the score has the effort to "
+      "reach it");
   command->add_flag("--json", options->json, "print JSON instead of a table");
   command->callback([options] { score(*options); });
 }

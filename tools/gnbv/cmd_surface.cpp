@@ -89,9 +89,7 @@ void surface(const SurfaceOptions& options) {
 void add_surface_command(CLI::App& app) {
   auto options = std::make_shared<SurfaceOptions>();
   CLI::App* const command = app.add_subcommand(
-      "surface",
-      "a textured mesh from what a run saw, scored against the true structure; or a mesh to fly "
-      "around from any cloud, with its error");
+      "surface", "make a textured mesh of a run, or a mesh of any cloud; say its error");
   command->add_option("RUN|CLOUD", options->run, "run directory, or a cloud as `score` reads it")
       ->required();
   command->add_option("-o,--out", options->out,
@@ -103,8 +101,8 @@ void add_surface_command(CLI::App& app) {
       ->delimiter(',')
       ->expected(3);
   command->add_option("--depth", options->depth,
-                      "of Poisson's octree, 5 to 12; one more is twice as fine and four times as "
-                      "slow (default: auto, by leaf and extent of the cloud, up to 10)");
+                      "depth of Poisson's octree, 5 to 12; one more is twice as fine and four "
+                      "times as slow (default: auto, by leaf and extent of the cloud, up to 10)");
   command
       ->add_option("--trim-m", options->settings.trim_m,
                    "surface farther than this from any point is cut off (default: 2 spacings of "
@@ -117,10 +115,11 @@ void add_surface_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 10.0));
   command
       ->add_option("--texture-px", options->settings.texture_px,
-                   "longest side of the texture, at most")
+                   "most pixels along the texture's longest side")
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();
-  command->add_flag("--no-texture", options->no_texture, "colours at the vertices alone");
+  command->add_flag("--no-texture", options->no_texture,
+                    "no texture, only colours at the vertices");
   add_threads_option(*command, options->threads);
   add_quiet_option(*command, options->quiet);
   command->add_flag("--json", options->json, "print the score as JSON instead of paths and table");

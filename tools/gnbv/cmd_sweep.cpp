@@ -204,13 +204,18 @@ void add_sweep_command(CLI::App& app) {
   auto o = std::make_shared<SweepOptions>();
   CLI::App* const command =
       app.add_subcommand("sweep", "fly a grid of missions; what is done is not flown again");
-  command->add_option("FILE", o->file, "YAML: scenarios, utilities, grid, seeds (README)")
+  command
+      ->add_option("FILE", o->file,
+                   "YAML: scenarios, utilities, grid, seeds (docs/guides/sweeps.md)")
       ->required();
-  command->add_option("--out", o->run.folder, "folder of the sweep; the same one goes on with it");
+  command->add_option("--out", o->run.folder,
+                      "folder of the sweep; with the same folder the sweep goes on");
   CLI::Option* const jobs =
       command->add_option("--jobs", o->run.jobs, "missions at a time, each a process")
           ->check(CLI::Range(1, 1024));
-  command->add_option("--threads", o->run.threads, "of each mission; 0 = the machine's, shared out")
+  command
+      ->add_option("--threads", o->run.threads,
+                   "threads of each mission; 0 = those of the machine, shared out")
       ->check(CLI::Range(0, 1024));
   CLI::Option* const index = command->add_option(
       "--index", o->index, "fly only cell K, or K-L, of --list; for schedulers");
@@ -227,7 +232,7 @@ void add_sweep_command(CLI::App& app) {
       "--status", o->status, "print what is done and failed; fly nothing", {index, list, jobs});
   add_flag("--retry-failed", o->run.retry_failed, "fly failed cells again, from the start",
            {list, status});
-  add_flag("--replace", o->replace, "take OUT though it is another sweep file's; its cells stay",
+  add_flag("--replace", o->replace, "use OUT although another sweep file made it; its cells stay",
            {index, list, status});
   add_quiet_option(*command, o->run.quiet);
   command->add_flag("--json", o->json, "print the cells as JSON instead of a table");

@@ -22,7 +22,7 @@ void add_table_command(CLI::App& app) {
   add_bench_options(*command, options->bench);
   add_utilities_option(*command, request.utilities, "rows beside the paper's");
   command->add_flag("--no-oracle", request.no_oracle,
-                    "without the rows of planners that know the mesh");
+                    "leave out the oracles, the planners that know the mesh");
   CLI::Option* const from = command->add_option(
       "--from", request.from, "files of rows (--missions): print what they hold, fly nothing");
   command->get_option("SCENARIO")->required(false)->excludes(from);

@@ -38,7 +38,7 @@ constexpr std::array<RejectionText, kRejectionNames.size()> kRejectionTexts = {
       "smaller no_fly boxes, or a larger workspace_m"},
      {"with a pitch that no gimbal reaches",
       "pitches within cameras.N.pitch_deg: {min, max, step}"},
-     {"so far around something that the search for a way ended first",
+     {"behind something so large that the search for a way around it ended first",
       "a larger planner.validity.path_search.max_expansions"}}};
 
 const RejectionText& text_of(Rejection reason) {
@@ -104,7 +104,7 @@ std::string early_end_note(const MissionResult& result, double coverage,
              "planner.termination.min_new_voxels_per_m (0: never), or a longer new_voxels_window\n";
     case Termination::battery:
       return after +
-             "what the battery had left was needed to come down; what helps: "
+             "the vehicle needed the rest of its battery to come down; what helps: "
              "vehicle.power.battery_wh\n";
     default:
       return "";

@@ -20,7 +20,7 @@ std::string help_on_what() {
   for (const PictureKind* kind : picture_kinds()) {
     help += fmt::format("\n{} = {}", kind->name, kind->shows);
   }
-  return help + "\nsnapshots = third-person images each --every views" +
+  return help + "\nsnapshots = third-person images, one every --every views" +
          "\nmovie = the flight as a film: MP4 by ffmpeg, or APNG, GIF or WebP by Pillow";
 }
 
@@ -32,7 +32,9 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
       "higher above)");
   command.add_option("--azimuth-deg", options.azimuth_deg,
                      "from where to look: 0 east, 90 north (default: the camera's)");
-  command.add_option("--elevation-deg", options.elevation_deg, "above the horizon")
+  command
+      .add_option("--elevation-deg", options.elevation_deg,
+                  "how far above the horizon to look from")
       ->check(is_elevation_deg());
   command.add_option("--width", options.picture.width_px, "width in pixels")
       ->check(CLI::Range(16, 8192))
@@ -140,21 +142,21 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option(
       "-o,--out", options.out,
       "PNG, MP4, GIF, APNG or WebP to write, or a folder (default: the run directory)");
-  command.add_option(
-      "--sheet", options.sheet,
-      "also a PNG with all pictures side by side: a column a run, a row a kind, lettered (a), "
-      "(b), ...");
+  command.add_option("--sheet", options.sheet,
+                     "also a PNG with all pictures side by side: one column for each run, one row "
+                     "for each kind, lettered (a), (b), ...");
   add_camera_options(command, options);
   command
-      .add_option("--iteration", options.picture.iteration,
-                  "cloud, coverage, voxels: after this view (default: the last); plan: the same, "
-                  "candidates: the decision that chose it (default: half way)")
+      .add_option(
+          "--iteration", options.picture.iteration,
+          "cloud, coverage, voxels: what there was after this view (default: the last). plan: the "
+          "same; candidates: the decision that chose this view (both by default half way)")
       ->check(CLI::Range(0, 1'000'000));
   command
       .add_option("--every", options.picture.every,
-                  "path, plan: frusta of each n-th view; snapshots: an image each n views")
+                  "path, plan: frusta of every n-th view; snapshots: an image every n views")
       ->check(CLI::Range(1, 1'000'000));
-  command.add_option("--fps", options.images_per_s, "movie: images a second")
+  command.add_option("--fps", options.images_per_s, "movie: images per second")
       ->check(CLI::Range(1, 120))
       ->capture_default_str();
   command.add_option("--film-s", options.film_s, "movie: how long it is (s)")
@@ -164,13 +166,13 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       .add_option("--letters", options.letters,
                   "how large words and marks are (default: 1; with a --sheet of several runs 1.4)")
       ->check(CLI::Range(0.5, 3.0));
-  command.add_option("--title", options.picture.title, "(default: scenario and utility)");
+  command.add_option("--title", options.picture.title, "title (default: scenario and utility)");
   command.add_flag("--with-profile", options.picture.has_profile,
-                   "path: the profile's flight, too, wide around the structure");
+                   "path: also draw the flight of the profile, wide around the structure");
   command.add_flag(
       "--over-surface", options.is_over_surface,
-      "path: around the surface that `gnbv surface` made of the run, not the structure");
-  command.add_flag("!--no-caption", options.picture.has_caption, "no title, legend and scale");
+      "path: draw the surface that `gnbv surface` made of the run, instead of the structure");
+  command.add_flag("!--no-caption", options.picture.has_caption, "draw no title, legend or scale");
   add_threads_option(command, options.threads, "the pictures do");
   add_quiet_option(command, options.quiet, "progress, no notes");
 }

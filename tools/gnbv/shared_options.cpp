@@ -31,14 +31,15 @@ void add_bounds_option(CLI::App& command, ScenarioOptions& options) {
       .add_option_function<std::string>(
           "--bounds",
           [&options](const std::string& bounds) { options.bounds_auto = bounds == "auto"; },
-          "auto: lay workspace and start around the structure, wherever it is; scenario: as it "
-          "says")
+          "auto: lay workspace and start around the structure, wherever it is; scenario: as the "
+          "scenario says")
       ->check(is_one_of({"auto", "scenario"}));
 }
 
 void add_structure_options(CLI::App& command, ScenarioOptions& options) {
   command.add_option("--mesh", options.mesh, "a mesh file instead of the scenario's structure");
-  command.add_option("--seed", options.seed, "moves the start pose and keys all noise");
+  command.add_option("--seed", options.seed,
+                     "moves the start pose; all random numbers come from it");
   command.add_option("--set", options.overrides, "KEY=VALUE of the scenario file; repeatable")
       ->allow_extra_args(false);
   add_bounds_option(command, options);
@@ -93,13 +94,14 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
   add_cells_options(command, options, "how many seeds, from --seed on");
   command
       .add_option("--ceiling-at", options.ceiling_percent,
-                  "take shares of this coverage at 0.05 m, in percent, instead of the ceiling that "
-                  "a search finds: what an oracle reached, say")
+                  "percent of coverage at 0.05 m of which shares are taken, instead of the ceiling "
+                  "that a search finds: for example what an oracle reached")
       ->check(CLI::Range(1.0, 100.0));
   command.add_option("--missions", options.missions,
-                     "CSV of a row a mission: those that it holds are not flown again, the others "
-                     "are added");
-  command.add_option("--commit", options.commit, "of this program, for the rows of --missions");
+                     "CSV with one row for each mission. Missions that it holds are not flown "
+                     "again; the others are added");
+  command.add_option("--commit", options.commit,
+                     "commit of this program, written into the rows of --missions");
   command.add_option("--format", options.format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();

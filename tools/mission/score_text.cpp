@@ -63,8 +63,8 @@ std::string score_text(const Scored& scored, const std::string& name, bool is_ru
                  &SizedCoverage::profile);
   }
   text +=
-      "a voxel counts with such surface of a tenth of its face; accurate: with a point within a "
-      "fifth of its size of the surface\n";
+      "a voxel counts when it holds such surface of at least a tenth of its face; accurate "
+      "coverage asks for a point within a fifth of the voxel's size of the surface\n";
   if (!is_outside) {
     text += fmt::format("area samples: voxels {}\n", reference_words(score.area_samples));
   }
@@ -75,13 +75,13 @@ std::string score_text(const Scored& scored, const std::string& name, bool is_ru
       percent_row("recall, from outside", at.size(), [&](std::size_t i) { return at[i].recall; });
   text += percent_row("F", at.size(), [&](std::size_t i) { return at[i].f; });
   text += fmt::format(
-      "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; beyond {} m counts "
-      "as that\n",
+      "\nChamfer distance {:.4f} m: accuracy {:.4f} m, completeness {:.4f} m; a distance beyond {} "
+      "m counts as that\n",
       score.distances.chamfer_m, score.distances.accuracy_m, score.distances.completeness_m,
       kFarthest_m);
   text += fmt::format(
-      "Points in a voxel of {} m that holds any: {:.1f}, variation {:.2f}; the tables' "
-      "Points/voxel is the paper's: points over the map's occupied voxels\n",
+      "Points in a voxel of {} m that holds any: {:.1f}, variation {:.2f}; Points/voxel in tables "
+      "is the paper's: points divided by the map's occupied voxels\n",
       score.density.voxel_m, score.density.mean_points, score.density.variation);
   return folded_text(text, width);
 }

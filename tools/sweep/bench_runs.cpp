@@ -122,10 +122,10 @@ void need_one_reference(const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) {
     const Cell& first = *firsts.try_emplace(cell.scenario, &cell).first->second;
     if (samples(cell) == samples(first)) continue;
-    throw BadInput(fmt::format(
-        "{}: {} and {} count unlike voxels (score.reference, score.area_samples): their coverages "
-        "cannot be compared",
-        cell.scenario, first.method, cell.method));
+    throw BadInput(
+        fmt::format("{}: {} and {} count different voxels (score.reference, score.area_samples): "
+                    "their coverages cannot be compared",
+                    cell.scenario, first.method, cell.method));
   }
 }
 
@@ -225,10 +225,10 @@ void add_ceilings(const std::string& baseline, const BenchOptions& options, Benc
         if (to_yaml(what_a_ceiling_depends_on(flown_by(run))) != content) others.push_back(method);
       }
       if (others.empty() || options.ceiling_percent) continue;
-      runs.notes.push_back(fmt::format(
-          "{}: one ceiling for all, that of {}: by their cameras, leaf or room {} would have "
-          "another",
-          scenario, yardstick, fmt::join(others, ", ")));
+      runs.notes.push_back(
+          fmt::format("{}: one ceiling for all, that of {}; {} would have another, because "
+                      "cameras, leaf or room differ",
+                      scenario, yardstick, fmt::join(others, ", ")));
     } catch (const BadInput& error) {
       runs.notes.push_back(fmt::format("{}: no share of ceiling: {}", scenario, error.what()));
     }

@@ -42,8 +42,8 @@ void keep_what_holds(const std::vector<Cell>& cells, const std::vector<std::stri
     for (const std::size_t i : members) dropped += is_same ? 0 : known.erase(ids[i]);
   }
   if (!options.quiet) {
-    say("{}: {} missions flown again as a sample; {} rows do not hold", options.missions.string(),
-        sample.size(), dropped);
+    say("{}: {} missions flown again as a sample; {} rows no longer hold",
+        options.missions.string(), sample.size(), dropped);
   }
 }
 

@@ -143,7 +143,7 @@ void require_folder_of(const fs::path& folder, const fs::path& yaml) {
   const std::string file = fs::absolute(yaml).lexically_normal().string();
   if (!head || head->file == file || fs::equivalent(head->file, file, ignored)) return;
   throw BadInput(
-      fmt::format("{}: is of {}, not of {}; --replace makes it the latter's, and the cells stay",
+      fmt::format("{}: is of {}, not of {}; --replace takes it for the latter, and its cells stay",
                   (folder / kManifest).string(), head->file, file));
 }
 

@@ -150,7 +150,7 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
   };
   if (!is_papers("papers_structure")) {
     text.notes.push_back(fmt::format(
-        "ours is of {}, which is not known to be the structure that the paper's figures are of",
+        "our rows are of {}, which is not known to be the structure of the paper's figures",
         runs.rows.front().structure));
   }
   if (!is_papers("papers_setting")) text.notes.emplace_back(kOtherSetting);
