@@ -18,9 +18,6 @@ constexpr int kSide = SurfaceCell::kSide;
 /// reference (a tenth) with a margin for the plane's error.
 constexpr double kExpectedFaceShare = 0.3;
 
-/// Noise is looked for so many cells away.
-constexpr int kNoiseReach = 2;
-
 void sort_unique(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -140,9 +137,9 @@ int SurfaceCells::bit_at(const Vec3& from_center_m) const {
   return bit;
 }
 
-PointMoments SurfaceCells::moments_around(const Key& key, std::int32_t reach) const {
+PointMoments SurfaceCells::moments_around(const Key& key) const {
   PointMoments sum;
-  for_each_key(keys_about(key, reach), [&](const Key& other) {
+  for_each_key(keys_about(key), [&](const Key& other) {
     const std::uint32_t at = lattice_.contains(other) ? at_[lattice_.index_of(other)] : 0;
     if (at == 0) return;
     sum.add(cells_[at - 1].moments,
@@ -160,17 +157,15 @@ double SurfaceCells::noise_m(const SurfaceCell& cell) const {
   return share > 0.6 ? 0.0 : kNear * detail_m_ * std::sqrt(2.0 / kPi) / share;
 }
 
-/// Own points say best where the surface is, if they spread; else those around. What may be noise
-/// of the surface around is: it has that one's plane, or nothing.
+/// Own points say best where the surface is, if they spread; else those around.
 void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
   constexpr double kEnoughPoints = 12.0;
   const double least_spread_m = 0.15 * edge_m();
-  const double within_m = 2.0 * noise_m(cell);
-  const int reach = std::clamp(static_cast<int>(std::ceil(within_m / edge_m())), 1, kNoiseReach);
   std::optional<Fit> found;
   if (cell.moments.count >= kEnoughPoints) found = fit_points(cell.moments, 1.3 * least_spread_m);
+  const double within_m = 2.0 * noise_m(cell);
   if (!found || found->axis || within_m > 0.0) {
-    found = fit_points(moments_around(cell.key, reach), least_spread_m);
+    found = fit_points(moments_around(cell.key), least_spread_m);
   }
   const std::uint64_t expected_before = cell.expected;
   cell.expected = 0;
@@ -180,18 +175,15 @@ void SurfaceCells::fit(SurfaceCell& cell, const OccupancyGrid& grid) const {
     cell.normal = ((is_turned ? -1.0 : 1.0) * found->normal).cast<float>();
     // with own points few, the plane has to go through them
     Vec3 mean_m = cell.is_extrapolated() ? found->mean_m : cell.moments.mean_m();
-    const bool is_noise = std::fabs(found->normal.dot(mean_m - found->mean_m)) < within_m;
-    if (is_noise) mean_m = found->mean_m;
+    // points that may be noise of the surface around are
+    if (std::fabs(found->normal.dot(mean_m - found->mean_m)) < within_m) mean_m = found->mean_m;
     cell.on_plane_m = (lattice_.center_m(cell.key) + mean_m).cast<float>();
     cell.is_bar ? expect_bar(cell, *found->axis) : expect_section(cell);
     const Vec3 middle_m = cell.on_plane_m.cast<double>();
-    if ((cell.is_extrapolated() || is_noise) && grid.state_at(middle_m) == VoxelState::free) {
-      cell.expected = 0;
-    }
+    if (cell.is_extrapolated() && grid.state_at(middle_m) == VoxelState::free) cell.expected = 0;
   }
   if (cell.expected != expected_before) cell.changed = version_;
   place_discs(cell);
-  if (within_m > 0.0 && !cell.has_plane()) cell.discs_m.clear();
 }
 
 void SurfaceCells::expect_section(SurfaceCell& cell) const {
@@ -274,11 +266,8 @@ void SurfaceCells::add(std::span<const Vec3f> points_world_m, const OccupancyGri
   }
   sort_unique(touched);
   for (const std::uint32_t index : touched) {
-    const int reach = noise_m(cells_[index]) > 0.0 ? kNoiseReach : 1;
-    for_each_key(keys_about(cells_[index].key, reach), [&](const Key& key) {
-      if (!lattice_.contains(key)) return;
-      const bool is_beside = keys_about(cells_[index].key).contains(key);
-      if (is_beside || at_[lattice_.index_of(key)] != 0) to_fit_.push_back(cell_at(key));
+    for_each_key(keys_about(cells_[index].key), [&](const Key& key) {
+      if (lattice_.contains(key)) to_fit_.push_back(cell_at(key));
     });
   }
   sort_unique(to_fit_);

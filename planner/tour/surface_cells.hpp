@@ -99,7 +99,7 @@ class SurfaceCells {
 
  private:
   std::uint32_t cell_at(const Key& key);
-  PointMoments moments_around(const Key& key, std::int32_t reach) const;
+  PointMoments moments_around(const Key& key) const;
   double noise_m(const SurfaceCell& cell) const;
   void fit(SurfaceCell& cell, const OccupancyGrid& grid) const;
   void expect_section(SurfaceCell& cell) const;

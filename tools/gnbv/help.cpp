@@ -107,7 +107,9 @@ void lay_out_help(CLI::App& app) {
       return e.command == command->get_name();
     });
     if (example == kExamples.end()) continue;
-    command->footer("Examples:\n" + indented(example->lines, 2));
+    const std::string more = command->get_footer();
+    command->footer("Examples:\n" + indented(example->lines, 2) +
+                    (more.empty() ? "" : "\n\n" + more));
   }
 }
 
