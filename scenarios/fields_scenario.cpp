@@ -102,8 +102,8 @@ void fields(const Keys& key, Scenario& c) {
   papers.list("no_fly", c.no_fly, {0, 256},
               "Boxes that the collision sphere keeps out of; unseen.");
   key.section("score", c.score, "What is scored.");
-  papers.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
-  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
+  papers.list("cameras", c.cameras, {0, 16}, "The depth cameras on the vehicle.");
+  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs on it.");
   key.section("vehicle", c.vehicle, "What flies.");
   key.section("guidance", c.guidance, "How it flies from view to view.");
   papers.section("wind", c.wind, "The air it flies in.");

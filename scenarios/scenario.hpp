@@ -10,7 +10,7 @@
 #include "planner/config.hpp"
 #include "planner/motion/config.hpp"
 #include "sensors/camera_model.hpp"
-#include "sensors/lidar_model.hpp"
+#include "sensors/sights.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/vehicle_config.hpp"
 #include "sim/mesh/mesh_file.hpp"
@@ -120,6 +120,11 @@ struct Scenario {
 
 inline bool has_flat_ground(const Scenario& scenario) {
   return scenario.structure.ground && scenario.terrain.path.empty();
+}
+
+/// What looks at its views (sensors/sights.hpp).
+inline std::vector<CameraConfig> sights_of(const Scenario& scenario) {
+  return sights_of(scenario.cameras, scenario.lidars, scenario.workspace_m);
 }
 
 /// Whether LIDARs scan the structure before the first view.

@@ -1,5 +1,6 @@
 #include "tools/mission/sensing.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -44,13 +45,25 @@ ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int c
   return frame;
 }
 
+LidarScan sense_sweep(const RayScene& scene, const LidarModel& lidar, int lidar_index,
+                      const Flight& flight, std::uint64_t seed) {
+  const std::array<Isometry, 1> T_world_body = {flight.state().T_world_body};
+  LidarScan scan = capture_scan(scene, lidar, lidar_index, T_world_body, kTick_s,
+                                {seed, static_cast<std::uint64_t>(flight.tick())},
+                                static_cast<double>(flight.tick()) * kTick_s);
+  scan.T_world_lidar = flight.estimate().T_world_body * lidar.T_body_lidar;
+  return scan;
+}
+
 ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars,
                                std::uint64_t seed, std::optional<double> rate_hz)
     : scene_(scene), lidars_(lidars), seed_(seed), rate_hz_(rate_hz) {}
 
 void ProfileScanner::tick(const Flight& flight, bool is_on) {
   for (std::size_t i = 0; is_on && i < lidars_.size(); ++i) {
-    if (!is_due(rate_hz_.value_or(lidars_[i].config.rate_hz), flight.tick())) continue;
+    const LidarConfig& lidar = lidars_[i].config;
+    const bool has_own_rate = !rate_hz_ || lidar.looks == LidarLooks::flight;
+    if (!is_due(has_own_rate ? lidar.rate_hz : *rate_hz_, flight.tick())) continue;
     sweeps_.push_back({i, flight.tick(), flight.estimate().T_world_body, {}});
   }
   for (Sweep& sweep : sweeps_) sweep.T_world_body.push_back(flight.state().T_world_body);
@@ -64,7 +77,8 @@ void ProfileScanner::tick(const Flight& flight, bool is_on) {
 void ProfileScanner::finish(const Sweep& sweep) {
   const LidarModel& lidar = lidars_[sweep.lidar];
   LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(sweep.lidar), sweep.T_world_body,
-                                kTick_s, {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
+                                kTick_s, {seed_, static_cast<std::uint64_t>(sweep.begin_tick)},
+                                static_cast<double>(sweep.begin_tick) * kTick_s);
   scan.T_world_lidar = sweep.T_world_body_believed * lidar.T_body_lidar;
   scans_.push_back(std::move(scan));
 }

@@ -118,7 +118,7 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
   for (RunSource* const run : runs) {
     kind.frame(*run, options, points);
     if (!kind.has_inset || !has_words(options)) continue;
-    const CameraConfig& camera = run->record().scenario.cameras.front();
+    const CameraConfig camera = sights_of(run->record().scenario).front();
     needs.inset_aspect =
         std::max(needs.inset_aspect, 1.0 * camera.height_px / std::max(1, camera.width_px));
   }
