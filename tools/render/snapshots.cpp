@@ -150,7 +150,7 @@ const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   if (onboard_ && onboard_->first == iteration) return onboard_->second;
   const RunRecord& record = run_.record();
   const ViewRecord& view = record.views[iteration];
-  const CameraConfig config = sights_of(record.scenario).front();
+  const CameraConfig& config = record.scenario.cameras.front();
   const CameraModel camera = turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
   ColourFrame frame =
       capture_colour(run_.scene(), camera, 0, T_world_body(view.time_s), run_.threads());
@@ -212,7 +212,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
                     entry(looks::kSeen, LegendItem::Mark::dot),
                     {"vehicle" + larger, {looks::kFrontRotors.rgb()}},
                     entry(looks::kCamera, LegendItem::Mark::pyramid)};
-  picture.inset = seen_by_camera(iteration);
+  if (!record.scenario.cameras.empty()) picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   return picture;
 }
