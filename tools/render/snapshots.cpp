@@ -152,8 +152,8 @@ const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   const ViewRecord& view = record.views[iteration];
   const CameraConfig& config = record.scenario.cameras.front();
   const CameraModel camera = turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
-  ColourFrame frame =
-      capture_colour(run_.scene(), camera, 0, T_world_body(view.time_s), run_.threads());
+  ColourFrame frame = capture_colour(run_.scene().at(view.time_s), camera, 0,
+                                     T_world_body(view.time_s), run_.threads());
   Image image{config.width_px, config.height_px, {}};
   for (const Rgb8& pixel : frame.rgb) image.rgb.insert(image.rgb.end(), pixel.begin(), pixel.end());
   onboard_.emplace(iteration, std::move(image));
@@ -173,7 +173,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       scene.series_box_m->extend(sample.T_world_body.translation());
     }
   }
-  add_ghost(run_, 0.5F, scene);
+  add_ghost(run_, 0.5F, scene, time_s);
 
   const std::size_t seen = run_.cloud().view_points[iteration];
   const auto count = std::lower_bound(points_.begin(), points_.end(), seen) - points_.begin();
