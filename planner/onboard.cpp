@@ -12,7 +12,9 @@ namespace gnbv {
 namespace {
 
 PlannerConfig checked(const OnboardSettings& settings) {
-  if (settings.cameras.empty()) throw BadInput("a planner needs a camera");
+  if (settings.cameras.empty() && settings.lidars.empty()) {
+    throw BadInput("a planner needs a camera or a LIDAR");
+  }
   if (settings.workspace_m.isEmpty()) throw BadInput("a planner needs a workspace");
   PlannerConfig config = settings.planner;
   if (settings.utility) {
@@ -83,7 +85,12 @@ void Onboard::add_frames(std::span<const DepthFrame> frames) {
   integrate_view(model_, frames, scratch_, belief_);
 }
 
-void Onboard::add_view(const ViewPose& pose, std::span<const DepthFrame> frames) {
+void Onboard::add_looks(std::span<const LidarScan> sweeps) {
+  integrate_looks(model_, sweeps, scratch_, belief_);
+}
+
+void Onboard::add_view(const ViewPose& pose, std::span<const DepthFrame> frames,
+                       std::span<const LidarScan> sweeps) {
   if (history_.decisions.empty()) {
     planner_->begin(belief_, pose);
     current_ = pose;
@@ -92,6 +99,7 @@ void Onboard::add_view(const ViewPose& pose, std::span<const DepthFrame> frames)
   const double straight_m = planned_m(history_, current_.p_world_m, flown_to_);
   current_ = pose;
   add_frames(frames);
+  add_looks(sweeps);
   remember(flown_to_, belief_, straight_m, history_);
 }
 

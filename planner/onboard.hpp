@@ -27,7 +27,7 @@ struct OnboardUtility {
 struct OnboardSettings {
   Box3 workspace_m;  // in the world frame: ENU, z up, the ground near z = 0
   std::vector<CameraConfig> cameras;
-  std::vector<LidarConfig> lidars = {};        // for a profile
+  std::vector<LidarConfig> lidars = {};        // for a profile, or to look (LidarConfig::looks)
   PlannerConfig planner = {};                  // planner.utility.name chooses the planner
   std::optional<OnboardUtility> utility = {};  // instead of the one that `planner` names
   NoFly no_fly = {};
@@ -43,7 +43,8 @@ struct OnboardSettings {
 /// vehicle is, the next one is asked for, flown to and taken, and so on.
 class Onboard {
  public:
-  /// Throws BadInput for settings without a camera or a box, or a planner that nobody knows.
+  /// Throws BadInput for settings without camera and LIDAR or without a box, or a planner that
+  /// nobody knows.
   explicit Onboard(OnboardSettings settings);
 
   /// A profile that was measured now, or one that was saved: `profile.map` of a run. Throws
@@ -53,8 +54,11 @@ class Onboard {
 
   /// What cameras saw on the way to a view. DepthFrame::T_world_camera is where from.
   void add_frames(std::span<const DepthFrame> frames);
-  /// A view that was taken from `pose`: one frame a camera.
-  void add_view(const ViewPose& pose, std::span<const DepthFrame> frames);
+  /// The same of LIDARs that look.
+  void add_looks(std::span<const LidarScan> sweeps);
+  /// A view that was taken from `pose`: one frame a camera, one sweep a LIDAR that looks.
+  void add_view(const ViewPose& pose, std::span<const DepthFrame> frames,
+                std::span<const LidarScan> sweeps = {});
 
   /// Where to take the next view, and the points on the way there; nothing when the mission is
   /// over. Requires a view since the last call.

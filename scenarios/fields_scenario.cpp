@@ -45,9 +45,23 @@ void fields(const Keys& key, StructureConfig& c) {
   key("ground", c.ground, "Whether the plane z = 0 is solid ground, where no terrain is given.");
 }
 
+void fields(const Keys& key, WaypointConfig& c) {
+  key("offset_m", c.offset_m, {-1e4, 1e4}, "From where the body stands, world axes.");
+}
+
+void fields(const Keys& key, MotionConfig& c) {
+  key.list("waypoints", c.waypoints, {0, 256},
+           "From where the body stands straight to each, without turning; none: it stands.");
+  const Keys moving = key.only_if(!c.waypoints.empty(), ".waypoints");
+  moving("speed_m_s", c.speed_m_s, positive(50), "All the way, from the mission's first moment.");
+  moving("loop", c.loop, "Back to where it stood and around again; else it stays at the last one.");
+  moving("known", c.known, "Whether legs are timed by it; else only what sensors saw is avoided.");
+}
+
 void fields(const Keys& key, ObstacleConfig& c) {
   key.section("file", c.file, "A mesh.");
   key.section("box_m", c.box_m, "Or a box, world ENU.");
+  key.section("motion", c.motion, "How it moves.");
 }
 
 void fields(const Keys& key, NoFlyConfig& c) { fields(key, c.box_m); }
@@ -110,8 +124,8 @@ void fields(const Keys& key, Scenario& c) {
   papers.list("no_fly", c.no_fly, {0, 256},
               "Boxes that the collision sphere keeps out of. No sensor sees them.");
   key.section("score", c.score, "What is scored.");
-  papers.list("cameras", c.cameras, {1, 16}, "The depth cameras on the vehicle.");
-  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs that scan the profile.");
+  papers.list("cameras", c.cameras, {0, 16}, "The depth cameras on the vehicle.");
+  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs on it.");
   key.section("vehicle", c.vehicle, "What flies.");
   key.section("guidance", c.guidance, "How the vehicle flies from view to view.");
   papers.section("wind", c.wind, "The air that the vehicle flies in.");

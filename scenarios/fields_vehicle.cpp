@@ -304,7 +304,21 @@ void fields(const Keys& key, CameraConfig& c) {
 void fields(const Keys& key, LidarConfig& c) {
   preset(key, c, "lidars");
   key.word("name", c.name, "Name of the LIDAR, unlike that of any other.");
-  key("beams", c.beams, {1, 1e5}, "Beams per sweep, spread evenly over the fan.");
+  using enum LidarPattern;
+  key("pattern", c.pattern, {{fan, "fan"}, {spinning, "spinning"}, {rosette, "rosette"}},
+      "fan: one plane; spinning: rings; rosette: other points in each sweep.");
+  key("looks", c.looks,
+      {{LidarLooks::profile, "profile"},
+       {LidarLooks::views, "views"},
+       {LidarLooks::flight, "flight"}},
+      "profile: scans that alone; views: a sweep at each view, too; flight: and at rate_hz on the "
+      "way. Without cameras profile is views.");
+  key("beams", c.beams, {1, 1e5}, "Beams per sweep, of a fan spread evenly; spinning: per ring.");
+  key.only_if(c.pattern == spinning, ".pattern")(
+      "rings", c.rings, {1, 256}, "spinning: evenly from the lowest elevation to the highest.");
+  const Keys high = key.only_if(c.pattern != fan, ".pattern");
+  high.angle("elevation_min_deg", c.elevation_min_rad, {-80, 80}, "Of the lowest beam.");
+  high.angle("elevation_max_deg", c.elevation_max_rad, {-80, 80}, "Of the highest beam.");
   key.angle("fov_deg", c.fov_rad, {0, 360}, "Angle from the first beam to the last.");
   key("rate_hz", c.rate_hz, positive(250), "Sweeps per second, at most one per tick.");
   key("range_min_m", c.range_min_m, {0, 1e3}, "Nearer returns are invalid.");

@@ -59,6 +59,9 @@ void check_obstacles(const Scenario& s, Problems& out) {
     require(is_mesh || is_box, out, {key, both[1], both[0]},
             "names neither a mesh (file.path) nor a box (box_m)");
     if (is_box && !is_mesh) check_box(box_m, both[0], out);
+    const MotionConfig& motion = s.obstacles[i].motion;
+    require(motion.waypoints.empty() || motion_of(motion).length_m() > 0.0, out,
+            {key + ".motion.waypoints"}, "lead nowhere: all are where the body stands");
   }
 }
 

@@ -66,13 +66,21 @@ void check_lens(const CameraConfig& c, const std::string& key, Problems& out) {
 
 void check_sensors(const Scenario& s, Problems& out) {
   const ProfilingConfig& profiling = s.planner.profiling;
-  require(!s.cameras.empty(), out, {"cameras"}, "names no camera; at least one has to look");
+  require(!s.cameras.empty() || !s.lidars.empty(), out, {"cameras"},
+          "names no camera, and lidars no LIDAR; at least one has to look");
   check_list(s.cameras, "cameras", out);
   check_gimbal(s.cameras, out);
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
     check_lens(s.cameras[i], fmt::format("cameras.{}.", i), out);
   }
   check_list(s.lidars, "lidars", out);
+  for (std::size_t i = 0; i < s.lidars.size(); ++i) {
+    const LidarConfig& lidar = s.lidars[i];
+    if (lidar.pattern == LidarPattern::fan) continue;
+    require_below(out, fmt::format("lidars.{}.", i), "elevation_min_deg",
+                  rad_to_deg(lidar.elevation_min_rad), "elevation_max_deg",
+                  rad_to_deg(lidar.elevation_max_rad));
+  }
   require(!s.lidars.empty() || !flies_a_profile(s), out, {"lidars", "planner.profiling.method"},
           "the profile needs a LIDAR to scan it");
   require(profiling.method != ProfilingMethod::saved || !profiling.file.empty(), out,

@@ -10,9 +10,10 @@
 #include "planner/config.hpp"
 #include "planner/motion/config.hpp"
 #include "sensors/camera_model.hpp"
-#include "sensors/lidar_model.hpp"
+#include "sensors/sights.hpp"
 #include "sim/flight/guidance.hpp"
 #include "sim/flight/vehicle_config.hpp"
+#include "sim/mesh/body_motion.hpp"
 #include "sim/mesh/mesh_file.hpp"
 
 namespace gnbv {
@@ -43,10 +44,28 @@ inline std::string structure_name(const StructureConfig& structure) {
   return more == 0 ? first : first + " and " + std::to_string(more) + " more";
 }
 
+struct WaypointConfig {
+  Vec3 offset_m = Vec3::Zero();  // from where the body stands
+};
+
+/// BodyMotion's.
+struct MotionConfig {
+  std::vector<WaypointConfig> waypoints;
+  double speed_m_s = 1.0;
+  bool loop = true;
+  bool known = false;
+};
+inline BodyMotion motion_of(const MotionConfig& config) {
+  BodyMotion motion{{}, config.speed_m_s, config.loop, config.known};
+  for (const WaypointConfig& point : config.waypoints) motion.offsets_m.push_back(point.offset_m);
+  return motion;
+}
+
 /// What is flown around and not scored: a mesh, or else a box. World ENU.
 struct ObstacleConfig {
   MeshFileConfig file;
   Box3 box_m = Box3(Vec3::Zero(), Vec3::Zero());
+  MotionConfig motion = {};
 };
 
 /// A box that may not be flown in. World ENU.
@@ -120,6 +139,11 @@ struct Scenario {
 
 inline bool has_flat_ground(const Scenario& scenario) {
   return scenario.structure.ground && scenario.terrain.path.empty();
+}
+
+/// What looks at its views (sensors/sights.hpp).
+inline std::vector<CameraConfig> sights_of(const Scenario& scenario) {
+  return sights_of(scenario.cameras, scenario.lidars, scenario.workspace_m);
 }
 
 /// Whether LIDARs scan the structure before the first view.

@@ -164,6 +164,11 @@ inline CameraModel make_camera_model(const CameraConfig& config) {
   model.sight = {Eigen::Vector2d(-tan_x, -tan_y), Eigen::Vector2d(tan_x, tan_y)};
   model.sight_rad = {-0.5 * Eigen::Vector2d(config.fov_x_rad, config.fov_y_rad),
                      0.5 * Eigen::Vector2d(config.fov_x_rad, config.fov_y_rad)};
+  if (config.distortion.model == Distortion::panorama) {
+    model.fx_px = config.width_px / config.fov_x_rad;
+    model.fy_px = config.height_px / config.fov_y_rad;
+    model.cy_px = config.distortion.k1 * model.fy_px;
+  }
   if (has_lens(config)) {
     model.lens = std::make_shared<const Lens>(
         config.width_px, config.height_px,
@@ -174,6 +179,11 @@ inline CameraModel make_camera_model(const CameraConfig& config) {
       return tangents.array().atan();
     };
     model.sight_rad = {angles(model.sight.min()), angles(model.sight.max())};
+    if (model.lens->is_panorama()) {
+      const double up_rad = config.distortion.k1;
+      model.sight_rad = {Eigen::Vector2d(-0.5 * config.fov_x_rad, -up_rad),
+                         Eigen::Vector2d(0.5 * config.fov_x_rad, config.fov_y_rad - up_rad)};
+    }
   }
   model.T_body_camera = T_body_camera_at(config, config.pitch_rad);
   return model;

@@ -141,11 +141,13 @@ bool is_still(std::span<const Isometry> poses) {
 }
 
 /// Traces each beam from the pose at its own time.
-std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar,
+std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar, double begin_s,
                                 std::span<const Isometry> T_world_body_during, double interval_s,
                                 float far_m) {
   const bool still = is_still(T_world_body_during);
-  const std::size_t beams = lidar.beams_lidar.size();
+  std::vector<Vec3f> memory;
+  const std::span<const Vec3f> beams_lidar = lidar.beams_at(begin_s, memory);
+  const std::size_t beams = beams_lidar.size();
   const double last = std::max(1.0, static_cast<double>(beams) - 1.0);
   const double intervals = still ? 0.0 : sweep_duration_s(lidar.config) / interval_s;
   constexpr double kRounding = 1e-9;
@@ -161,7 +163,7 @@ std::vector<RayHit> trace_sweep(const RayScene& scene, const LidarModel& lidar,
       T_world_lidar = pose_during(T_world_body_during, at) * lidar.T_body_lidar;
     }
     origins_world_m[i] = T_world_lidar.translation().cast<float>();
-    directions_world[i] = T_world_lidar.linear().cast<float>() * lidar.beams_lidar[i];
+    directions_world[i] = T_world_lidar.linear().cast<float>() * beams_lidar[i];
   }
   std::vector<RayHit> hits(beams);
   scene.first_hits(origins_world_m, directions_world, kTraceFrom_m, far_m, hits);
@@ -194,7 +196,7 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
 
 LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
                        std::span<const Isometry> T_world_body_during, double interval_s,
-                       const NoiseKey& key) {
+                       const NoiseKey& key, double begin_s) {
   GNBV_CHECK(!T_world_body_during.empty(), "a sweep of {} without a pose", lidar.config.name);
   const LidarConfig& config = lidar.config;
   const auto far_m =
@@ -202,8 +204,9 @@ LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar
   LidarScan scan;
   scan.lidar = lidar_index;
   scan.T_world_lidar = T_world_body_during.front() * lidar.T_body_lidar;
+  scan.begin_s = begin_s;
   const std::vector<RayHit> hits =
-      trace_sweep(scene, lidar, T_world_body_during, interval_s, far_m);
+      trace_sweep(scene, lidar, begin_s, T_world_body_during, interval_s, far_m);
   scan.range_m.reserve(hits.size());
   for (std::size_t beam = 0; beam < hits.size(); ++beam) {
     const float true_m = hits[beam].distance_m;

@@ -28,9 +28,10 @@ Vec3f towards_sun_world();
 /// One sweep of the LIDAR; ranges as depths above. `T_world_body_during` are true poses, one every
 /// `interval_s` from the first beam to the last one or just after it; one pose means a sweep at one
 /// instant. Each beam is traced from the interpolated pose of its own time. The scan carries the
-/// first pose, as a driver stamps it: a scan in motion is skewed.
+/// first pose, as a driver stamps it: a scan in motion is skewed. `begin_s`: when it begins, for a
+/// rosette.
 LidarScan capture_scan(const RayScene& scene, const LidarModel& lidar, int lidar_index,
                        std::span<const Isometry> T_world_body_during, double interval_s,
-                       const NoiseKey& key);
+                       const NoiseKey& key, double begin_s = 0.0);
 
 }  // namespace gnbv

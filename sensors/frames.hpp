@@ -29,9 +29,10 @@ struct ColourFrame {
 };
 
 struct LidarScan {
-  int lidar = 0;  // index of the LIDAR on the vehicle
+  int lidar = 0;         // index of the LIDAR on the vehicle
+  double begin_s = 0.0;  // which beams a rosette has
   Isometry T_world_lidar = Isometry::Identity();
-  std::vector<float> range_m;  // (beams), along the beam; see above
+  std::vector<float> range_m;  // (LidarModel::beams_at), along the beam; see above
 };
 
 }  // namespace gnbv

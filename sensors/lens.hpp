@@ -17,10 +17,13 @@
 
 namespace gnbv {
 
-enum class Distortion { none, brown_conrady, kannala_brandt };
+/// panorama: rows and columns are even steps of angle; no camera's, but what a sector of a LIDAR
+/// sees.
+enum class Distortion { none, brown_conrady, kannala_brandt, panorama };
 
 /// brown_conrady: OpenCV's k1 k2 p1 p2 k3 k4 k5 k6, the last three a rational model's (Brown 1966;
 /// Claus, Fitzgibbon 2005). kannala_brandt: OpenCV's fisheye, k1 to k4 (Kannala, Brandt 2006).
+/// panorama: k1 is the elevation of the upper edge, in radians.
 struct DistortionConfig {
   Distortion model = Distortion::none;
   double k1 = 0.0, k2 = 0.0, k3 = 0.0, k4 = 0.0, k5 = 0.0, k6 = 0.0, p1 = 0.0, p2 = 0.0;
@@ -28,7 +31,8 @@ struct DistortionConfig {
 };
 
 inline const char* distortion_name(Distortion model) {
-  return std::array{"none", "brown_conrady", "kannala_brandt"}[static_cast<std::size_t>(model)];
+  return std::array{"none", "brown_conrady", "kannala_brandt",
+                    "panorama"}[static_cast<std::size_t>(model)];
 }
 /// Throws BadInput for a name that is none of them.
 inline Distortion distortion_named(const std::string& name) {
@@ -54,7 +58,7 @@ constexpr std::array<std::pair<const char*, double DistortionConfig::*>, 8> kCoe
 inline std::vector<double> coefficients_of(const DistortionConfig& d) {
   if (d.model == Distortion::kannala_brandt) return {d.k1, d.k2, d.k3, d.k4};
   std::vector<double> all;
-  if (d.model == Distortion::none) return all;
+  if (d.model == Distortion::none || d.model == Distortion::panorama) return all;
   for (const auto& [name, member] : kCoefficients) all.push_back(d.*member);
   return all;
 }
@@ -85,7 +89,10 @@ class Lens {
     return distortion_.model == Distortion::none && pinhole_.skew_px == 0.0;
   }
   /// Ranges count along the ray, not along the optical axis: so wide a plane is no range.
-  bool is_radial() const { return distortion_.model == Distortion::kannala_brandt; }
+  bool is_radial() const {
+    return distortion_.model == Distortion::kannala_brandt || is_panorama();
+  }
+  bool is_panorama() const { return distortion_.model == Distortion::panorama; }
   /// What the image spans at z = 1; what is distorted does not fill it.
   const Eigen::AlignedBox2d& sight() const { return sight_; }
   /// Of (x, y): the model is one to one within it.
@@ -94,6 +101,7 @@ class Lens {
   /// Of (x, y) within radius_max().
   Vec2 distort(const Vec2& xy) const {
     if (distortion_.model == Distortion::none) return xy;
+    if (is_panorama()) return xy_to_angles(xy);
     const double r = xy.norm();
     if (is_radial()) return r > 0.0 ? Vec2(spread(std::atan(r)) / r * xy) : xy;
     return xy * (r > 0.0 ? spread(r) / r : 1.0) + decentred(xy);
@@ -102,7 +110,11 @@ class Lens {
   /// Its inverse; nothing where no direction within radius_max() goes.
   std::optional<Vec2> undistort(const Vec2& distorted) const {
     Vec2 xy = distorted;
-    if (distortion_.model != Distortion::none) {
+    if (is_panorama()) {
+      if (distorted.cwiseAbs().maxCoeff() >= argument_max_) return std::nullopt;
+      xy.x() = std::tan(distorted.x());
+      xy.y() = std::tan(distorted.y()) * std::hypot(1.0, xy.x());
+    } else if (distortion_.model != Distortion::none) {
       const double r = distorted.norm();
       if (r > 0.0) {
         const double argument = argument_of(r);
@@ -155,6 +167,11 @@ class Lens {
 
   /// Volume that it sees to a range of 1.
   double unit_m3() const {
+    if (is_panorama()) {
+      const double up_rad = pinhole_.cy_px / pinhole_.fy_px;
+      const double down_rad = height_px_ / pinhole_.fy_px - up_rad;
+      return width_px_ / pinhole_.fx_px * (std::sin(up_rad) + std::sin(down_rad)) / 3.0;
+    }
     constexpr int kRings = 128;
     constexpr int kBearings = 256;
     const double step_rad = std::atan(radius_max_) / kRings;
@@ -183,6 +200,10 @@ class Lens {
     const double h = 1e-6 * (1.0 + s);
     return (spread(s + h) - spread(s - h)) / (2.0 * h);
   }
+  /// To the right and down, as a LIDAR's azimuth and elevation.
+  static Vec2 xy_to_angles(const Vec2& xy) {
+    return {std::atan(xy.x()), std::atan(xy.y() / std::hypot(1.0, xy.x()))};
+  }
   Vec2 decentred(const Vec2& xy) const {
     const double r2 = xy.squaredNorm();
     const double xy2 = 2.0 * xy.x() * xy.y();
@@ -198,7 +219,8 @@ class Lens {
     constexpr int kSteps = 4096;
     const double most =
         is_radial() ? distortion_.max_angle_rad : std::tan(distortion_.max_angle_rad);
-    for (int i = 1; i <= kSteps && distortion_.model != Distortion::none; ++i) {
+    const bool folds = distortion_.model != Distortion::none && !is_panorama();
+    for (int i = 1; i <= kSteps && folds; ++i) {
       const double s = most * i / kSteps;
       // off its centre, the lens adds no more than this to either way's slope
       const double off_centre =

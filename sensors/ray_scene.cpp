@@ -42,9 +42,10 @@ std::int32_t face_of(const EmbreeScene& world, const RTCRayHit16& answer, std::s
   return id == RTC_INVALID_GEOMETRY_ID ? kNoFace : of_something;
 }
 
-/// Calls store(i, answer) for each packet of rays from the origin.
-template <typename Store>
-void trace_packets(const EmbreeScene& world, const Vec3f& origin_world_m,
+/// Calls store(i, answer) for each packet of rays from the origin; also(valid, answer) before it
+/// may change the answer.
+template <typename Also, typename Store>
+void trace_packets(const EmbreeScene& world, const Also& also, const Vec3f& origin_world_m,
                    std::span<const RayPacket> directions_world, float near_m, float far_m,
                    const Store& store) {
   RTCIntersectContext context = coherent_context();
@@ -62,6 +63,7 @@ void trace_packets(const EmbreeScene& world, const Vec3f& origin_world_m,
     std::memcpy(packet.ray.dir_y, directions_world[i].y.data(), sizeof packet.ray.dir_y);
     std::memcpy(packet.ray.dir_z, directions_world[i].z.data(), sizeof packet.ray.dir_z);
     trace(world, valid, far_m, context, packet);
+    also(valid, packet);
     store(i, packet);
   }
 }
@@ -103,15 +105,87 @@ void need_answers(std::size_t answers, std::size_t questions) {
 
 }  // namespace
 
-RayScene::RayScene(const World& world) : embree_(std::make_unique<EmbreeScene>(world)) {}
-RayScene::~RayScene() = default;
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::RayScene(const World& world) : embree_(std::make_shared<const EmbreeScene>(world)) {
+  auto first_face = static_cast<std::uint32_t>(embree_->meshes.faces.size());
+  for (const MovingBody& mover : world.movers) {
+    const World alone{.structure = {}, .has_ground = false, .obstacles = mover.mesh};
+    movers_.push_back(
+        {std::make_shared<const EmbreeScene>(alone), mover.motion, Vec3::Zero(), first_face});
+    first_face += static_cast<std::uint32_t>(mover.mesh.faces.size());
+  }
+}
+
+RayScene RayScene::at(double time_s) const {
+  RayScene now = *this;
+  now.has_time_ = true;
+  for (Mover& mover : now.movers_) mover.offset_m = mover.motion.offset_at(time_s);
+  return now;
+}
+
+/// Rays from where they began less the body's offset meet it where it stood. What they meet nearer
+/// than all else becomes a face of the obstacles, numbered on.
+void RayScene::trace_movers(std::span<const int, kPacket> valid, float far_m,
+                            RTCRayHit16& packet) const {
+  if (!has_time_) return;
+  Lanes lanes;
+  std::ranges::copy(valid, lanes.begin());
+  RTCIntersectContext context = coherent_context();
+  for (const Mover& mover : movers_) {
+    const Vec3f offset_m = mover.offset_m.cast<float>();
+    RTCRayHit16 other = packet;
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      other.ray.org_x[lane] -= offset_m.x();
+      other.ray.org_y[lane] -= offset_m.y();
+      other.ray.org_z[lane] -= offset_m.z();
+    }
+    trace(*mover.body, lanes, far_m, context, other);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      if (other.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+      const bool is_first = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ||
+                            other.ray.tfar[lane] < packet.ray.tfar[lane];
+      if (lanes[lane] == 0 || !is_first) continue;
+      packet.ray.tfar[lane] = other.ray.tfar[lane];
+      packet.hit.geomID[lane] = EmbreeScene::obstacles;
+      packet.hit.primID[lane] = other.hit.primID[lane] + mover.first_face - embree_->first_face[1];
+    }
+  }
+}
+
+void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRay16& packet) const {
+  if (!has_time_) return;
+  Lanes lanes;
+  std::ranges::copy(valid, lanes.begin());
+  RTCIntersectContext context = coherent_context();
+  for (const Mover& mover : movers_) {
+    const Vec3f offset_m = mover.offset_m.cast<float>();
+    RTCRay16 other = packet;
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      other.org_x[lane] -= offset_m.x();
+      other.org_y[lane] -= offset_m.y();
+      other.org_z[lane] -= offset_m.z();
+    }
+    rtcOccluded16(lanes.data(), mover.body->scene.get(), &context, &other);
+    std::ranges::copy(other.tfar, std::begin(packet.tfar));
+  }
+}
+
+std::pair<const TriangleMesh*, std::size_t> RayScene::mesh_of(std::int32_t face) const {
+  GNBV_CHECK(face >= 0, "face {} is no mesh's", face);
+  const auto index = static_cast<std::uint32_t>(face);
+  const auto after =
+      std::ranges::find_if(movers_, [&](const Mover& mover) { return mover.first_face > index; });
+  if (after == movers_.begin()) return {&embree_->meshes, index};
+  const Mover& mover = *std::prev(after);
+  return {&mover.body->meshes, index - mover.first_face};
+}
 
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
                           float near_m, float far_m, std::span<HitPacket> hits) const {
   need_answers(hits.size(), directions_world.size());
-  trace_packets(*embree_, origin_world_m, directions_world, near_m, far_m,
+  const auto also = [&](const Lanes& valid, RTCRayHit16& packet) {
+    trace_movers(valid, far_m, packet);
+  };
+  trace_packets(*embree_, also, origin_world_m, directions_world, near_m, far_m,
                 [&](std::size_t i, const RTCRayHit16& answer) {
                   HitPacket& out = hits[i];
                   for (std::size_t lane = 0; lane < kPacket; ++lane) {
@@ -126,7 +200,10 @@ void RayScene::first_distances(const Vec3f& origin_world_m,
                                float far_m,
                                std::span<std::array<float, kPacket>> distances_m) const {
   need_answers(distances_m.size(), directions_world.size());
-  trace_packets(*embree_, origin_world_m, directions_world, near_m, far_m,
+  const auto also = [&](const Lanes& valid, RTCRayHit16& packet) {
+    trace_movers(valid, far_m, packet);
+  };
+  trace_packets(*embree_, also, origin_world_m, directions_world, near_m, far_m,
                 [&](std::size_t i, const RTCRayHit16& answer) {
                   std::array<float, kPacket>& out = distances_m[i];
                   for (std::size_t lane = 0; lane < kPacket; ++lane) {
@@ -143,7 +220,10 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
   RTCRayHit16 packet{};
   for_each_ray(
       origins_world_m, directions_world, near_m, kAllParts, packet.ray,
-      [&](const Lanes& valid) { trace(*embree_, valid, far_m, context, packet); },
+      [&](const Lanes& valid) {
+        trace(*embree_, valid, far_m, context, packet);
+        trace_movers(valid, far_m, packet);
+      },
       [&](std::size_t i, std::size_t lane) {
         hits[i] = {distance_of(packet, lane), face_of(*embree_, packet, lane)};
       });
@@ -160,26 +240,53 @@ void RayScene::find_blocked(unsigned parts, std::span<const Vec3f> origins_world
       [&](const Lanes& valid) {
         std::fill_n(packet.tfar, kPacket, far_m);
         rtcOccluded16(valid.data(), embree_->scene.get(), &context, &packet);
+        if ((parts & kObstaclePart) != 0) find_blocked_by_movers(valid, packet);
       },
       [&](std::size_t i, std::size_t lane) {
         blocked[i] = packet.tfar[lane] < 0.0F ? 1 : 0;  // occluded: Embree says -infinity
       });
 }
 
-bool RayScene::has_obstacles() const { return embree_->first_face[2] > embree_->first_face[1]; }
+bool RayScene::has_obstacles() const {
+  return embree_->first_face[2] > embree_->first_face[1] || !movers_.empty();
+}
 bool RayScene::has_terrain() const { return embree_->first_face[3] > embree_->first_face[2]; }
 
 Vec3f RayScene::normal_world(std::int32_t face) const {
   if (face == kGroundFace) return Vec3f::UnitZ();
-  GNBV_CHECK(face >= 0, "the normal of nothing");
-  const auto& [a, b, c] = embree_->meshes.faces[static_cast<std::size_t>(face)];
-  const std::vector<Vec3f>& p = embree_->meshes.vertices_m;
+  const auto [mesh, index] = mesh_of(face);
+  const auto& [a, b, c] = mesh->faces[index];
+  const std::vector<Vec3f>& p = mesh->vertices_m;
   return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
 }
 
 const Material& RayScene::material(std::int32_t face) const {
-  const TriangleMesh& meshes = embree_->meshes;
-  return meshes.materials[material_of(meshes, static_cast<std::size_t>(face))];
+  const auto [mesh, index] = mesh_of(face);
+  return mesh->materials[material_of(*mesh, index)];
+}
+
+double RayScene::distance_to_known_movers_m(const Vec3& p_world_m, double time_s,
+                                            double limit_m) const {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Mover& mover : movers_) {
+    if (!mover.motion.known) continue;
+    const Vec3 p_m = p_world_m - mover.motion.offset_at(time_s);
+    nearest_m = std::min(nearest_m, mover.body->distance_m(kObstaclePart, p_m, limit_m));
+  }
+  return nearest_m;
+}
+
+double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const {
+  constexpr double kApart_m = 0.02;  // of a body's places
+  double nearest_m = distance_m(kObstaclePart | kTerrainPart, p_world_m, limit_m);
+  for (const Mover& mover : movers_) {
+    const double length_m = mover.motion.length_m();
+    for (double along_m = 0.0; along_m < length_m + kApart_m; along_m += kApart_m) {
+      const Vec3 p_m = p_world_m - mover.motion.offset_after(std::min(along_m, length_m));
+      nearest_m = std::min(nearest_m, mover.body->distance_m(kObstaclePart, p_m, limit_m));
+    }
+  }
+  return nearest_m;
 }
 
 double RayScene::distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "sim/core/pose.hpp"
 #include "sim/mesh/world.hpp"
@@ -52,15 +54,22 @@ struct HitPacket {
 };
 
 struct EmbreeScene;
+}  // namespace gnbv
+struct RTCRay16;  // Embree's
+struct RTCRayHit16;
+namespace gnbv {
 
 /// Ray queries against the structure, its surroundings and the ground. Any number of threads may
 /// query at once. An answer depends on its ray alone. As many answers as rays.
 class RayScene {
  public:
+  /// Of the world at rest: bodies that move are not there.
   explicit RayScene(const World& world);
-  ~RayScene();
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
+
+  /// The same world with its moving bodies where they are then.
+  RayScene at(double time_s) const;
+  /// To the nearest body whose motion is known, then; infinity beyond `limit_m`.
+  double distance_to_known_movers_m(const Vec3& p_world_m, double time_s, double limit_m) const;
 
   /// First hit of each ray in (near_m, far_m]. Directions need not be of unit length; distances are
   /// in multiples of them.
@@ -91,7 +100,7 @@ class RayScene {
   /// Of a mesh's face.
   const Material& material(std::int32_t face) const;
 
-  bool has_obstacles() const;
+  bool has_obstacles() const;  // that stand, or move
   bool has_terrain() const;
 
   /// Distance from a point to the nearest surface of the parts, but of the ground, up to `limit_m`;
@@ -100,17 +109,29 @@ class RayScene {
   double distance_to_structure_m(const Vec3& p_world_m, double limit_m) const {
     return distance_m(kStructurePart, p_world_m, limit_m);
   }
-  /// To what is seen and not scored.
-  double distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const {
-    return distance_m(kObstaclePart | kTerrainPart, p_world_m, limit_m);
-  }
+  /// To what is seen and not scored, moving bodies wherever they come.
+  double distance_to_surroundings_m(const Vec3& p_world_m, double limit_m) const;
   /// To what the vehicle has to keep clear of.
   double clearance_m(const Vec3& p_world_m, double limit_m) const {
     return distance_m(kStructurePart | kObstaclePart | kRisenTerrainPart, p_world_m, limit_m);
   }
 
  private:
-  std::unique_ptr<EmbreeScene> embree_;
+  struct Mover {
+    std::shared_ptr<const EmbreeScene> body;  // its mesh where it stands at time 0, as obstacles
+    BodyMotion motion;
+    Vec3 offset_m;             // now
+    std::uint32_t first_face;  // after those of the meshes and of the movers before
+  };
+  void trace_movers(std::span<const int, RayPacket::kRays> valid, float far_m,
+                    RTCRayHit16& packet) const;
+  void find_blocked_by_movers(std::span<const int, RayPacket::kRays> valid, RTCRay16& packet) const;
+  /// The mesh of a face, and its number there.
+  std::pair<const TriangleMesh*, std::size_t> mesh_of(std::int32_t face) const;
+
+  std::shared_ptr<const EmbreeScene> embree_;
+  std::vector<Mover> movers_;
+  bool has_time_ = false;  // at()
 };
 
 }  // namespace gnbv

@@ -113,6 +113,7 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   out.structure = scenario.structure;
   out.terrain = scenario.terrain;
   out.obstacles = scenario.obstacles;
+  std::erase_if(out.obstacles, [](const auto& o) { return !o.motion.waypoints.empty(); });
   out.no_fly = scenario.no_fly;
   out.score.reference = scenario.score.reference;
   out.score.region_m = scenario.score.region_m;

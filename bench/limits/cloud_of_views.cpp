@@ -20,7 +20,7 @@ std::vector<std::uint32_t> found_voxels(const VoxelSet& reference,
 
 std::vector<CameraModel> exact_cameras(const Scenario& scenario) {
   std::vector<CameraModel> cameras;
-  for (CameraConfig config : scenario.cameras) {
+  for (CameraConfig config : sights_of(scenario)) {
     config.noise.model = DepthNoise::none;
     cameras.push_back(make_camera_model(config));
   }

@@ -12,7 +12,7 @@
 
 namespace gnbv {
 
-/// The scenario's cameras, without noise.
+/// What looks at the scenario's views (sensors/sights.hpp), without noise.
 std::vector<CameraModel> exact_cameras(const Scenario& scenario);
 
 /// One view by all cameras, as rays in the world.

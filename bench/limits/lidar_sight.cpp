@@ -59,32 +59,50 @@ LidarSight::LidarSight(const Scenario& scenario, const RayScene& scene) : scene_
                              .R_lidar_world = (R_world_body * T_body.linear()).transpose(),
                              .range_min_m = config.range_min_m,
                              .range_max_m = config.range_max_m,
-                             .half_fov_rad = 0.5 * config.fov_rad});
+                             .half_fov_rad = 0.5 * config.fov_rad,
+                             .lidar = config});
         }
       }
     }
   }
 }
 
+std::vector<Vec3> LidarSight::origins_m(const Sweep& sweep, const Vec3& point_world_m) {
+  if (sweep.lidar.pattern == LidarPattern::fan) {
+    // where on the leg the fan's plane passes through the point
+    const Vec3 normal = sweep.R_lidar_world.row(2).transpose();
+    const double share = normal.dot(point_world_m - sweep.from_m) / normal.dot(sweep.along_m);
+    if (!(share >= 0.0 && share <= 1.0)) return {};  // never for a leg within the plane, either
+    return {sweep.from_m + share * sweep.along_m};
+  }
+  constexpr double kApart_m = 0.5;
+  std::vector<Vec3> origins;
+  const double steps = std::max(1.0, std::ceil(sweep.along_m.norm() / kApart_m));
+  for (double i = 0.0; i <= steps; ++i) {
+    const Vec3 origin_m = sweep.from_m + i / steps * sweep.along_m;
+    const Vec3 in_lidar_m = sweep.R_lidar_world * (point_world_m - origin_m);
+    const double up_rad = std::atan2(in_lidar_m.z(), in_lidar_m.head<2>().norm());
+    if (up_rad < sweep.lidar.elevation_min_rad || up_rad > sweep.lidar.elevation_max_rad) continue;
+    origins.push_back(origin_m);
+  }
+  return origins;
+}
+
 bool LidarSight::is_seen(const Vec3f& point_world_m) const {
   const Vec3 point_m = point_world_m.cast<double>();
   std::vector<Vec3f> origins, directions;
   for (const Sweep& sweep : sweeps_) {
-    // where on the leg the fan's plane passes through the point
-    const Vec3 normal = sweep.R_lidar_world.row(2).transpose();
-    const double speed = normal.dot(sweep.along_m);
-    const double share = normal.dot(point_m - sweep.from_m) / speed;
-    if (!(share >= 0.0 && share <= 1.0)) continue;  // never for a leg within the plane, either
-    const Vec3 origin_m = sweep.from_m + share * sweep.along_m;
-    const Vec3 to_m = point_m - origin_m;
-    const double range_m = to_m.norm();
-    const Vec3 in_fan_m = sweep.R_lidar_world * to_m;
-    if (range_m < sweep.range_min_m || range_m > sweep.range_max_m ||
-        std::abs(std::atan2(in_fan_m.y(), in_fan_m.x())) > sweep.half_fov_rad) {
-      continue;
+    for (const Vec3& origin_m : origins_m(sweep, point_m)) {
+      const Vec3 to_m = point_m - origin_m;
+      const double range_m = to_m.norm();
+      const Vec3 in_fan_m = sweep.R_lidar_world * to_m;
+      if (range_m < sweep.range_min_m || range_m > sweep.range_max_m ||
+          std::abs(std::atan2(in_fan_m.y(), in_fan_m.x())) > sweep.half_fov_rad) {
+        continue;
+      }
+      origins.emplace_back(origin_m.cast<float>());
+      directions.emplace_back(to_m.cast<float>());
     }
-    origins.emplace_back(origin_m.cast<float>());
-    directions.emplace_back(to_m.cast<float>());
   }
   std::vector<std::uint8_t> blocked(origins.size());
   scene_.find_blocked(kMeshParts, origins, directions, 0.0F, kSightEnd, blocked);

@@ -22,6 +22,10 @@ std::vector<CameraModel> coarse(std::span<const CameraModel> cameras) {
   std::vector<CameraModel> out;
   for (const CameraModel& camera : cameras) {
     CameraConfig config = camera.config;
+    const double across = 40.0 / config.width_px;
+    const double down = 32.0 / config.height_px;
+    for (double* const px : {&config.fx_px, &config.cx_px, &config.skew_px}) *px *= across;
+    for (double* const px : {&config.fy_px, &config.cy_px}) *px *= down;
     config.width_px = 40;
     config.height_px = 32;
     out.push_back(make_camera_model(config));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sensors/sights.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {
@@ -23,13 +24,22 @@ PlannerModel::PlannerModel(const BeliefConfig& belief_config, const ValidityConf
       pitches_rad(gimbal ? gnbv::pitches_rad(*gimbal) : std::vector<double>{0.0}) {
   if (validity.path == PathCheck::straight) validity_around.path = PathCheck::astar;
   const double resolution_m = belief.map.resolution_m;
-  for (const LidarConfig& lidar : lidar_configs) lidars.push_back(make_lidar_model(lidar));
-  for (const CameraConfig& camera : camera_configs) {
-    cameras.push_back(make_camera_model(camera));
-    view_voxels += frustum_m3(camera);
+  for (const CameraConfig& camera : camera_configs) cameras.push_back(make_camera_model(camera));
+  std::size_t sights_so_far = cameras.size();
+  for (const LidarConfig& lidar : lidar_configs) {
+    lidars.push_back(make_lidar_model(lidar));
+    first_sector.push_back(sights_so_far);
+    if (looks_at_views(lidar, !camera_configs.empty())) {
+      sights_so_far += sectors_of(lidar, lidar.range_max_m).size();
+    }
+  }
+  first_sector.push_back(sights_so_far);
+  for (const CameraConfig& sight : sights_of(camera_configs, lidar_configs, workspace)) {
+    sights.push_back(make_camera_model(sight));
+    view_voxels += frustum_m3(sight);
   }
   for (const double pitch_rad : pitches_rad) {
-    view_rays.push_back(make_view_rays(turned(cameras, pitch_rad), resolution_m));
+    view_rays.push_back(make_view_rays(turned(sights, pitch_rad), resolution_m));
   }
   view_voxels /= std::pow(resolution_m, 3);
 }
@@ -92,6 +102,30 @@ void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scan
                       Belief& belief) {
   if (scans.empty()) return;
   belief.ranged.add(insert_scans(model, scans, scratch, belief), model.belief.cloud.profile_leaf_m);
+}
+
+void integrate_looks(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
+                     Belief& belief) {
+  scratch.frame_rays.resize(1);
+  FrameRays& rays = scratch.frame_rays.front();
+  for (const LidarScan& scan : scans) {
+    const auto lidar = static_cast<std::size_t>(scan.lidar);
+    const Isometry T_world_body = scan.T_world_lidar * model.lidars[lidar].T_body_lidar.inverse();
+    for (std::size_t i = model.first_sector[lidar]; i < model.first_sector[lidar + 1]; ++i) {
+      belief.frame_poses.push_back(
+          {static_cast<int>(i), T_world_body * model.sights[i].T_body_camera});
+    }
+    compute_sweep_rays(scan, model.lidars[lidar], model.belief.floor_z_m, rays,
+                       model.belief.map.no_return);
+    belief.grid.apply(scratch.inserter.compute_update(rays));
+    if (model.belief.keeps_shadow) belief.shadow.add(rays, belief.grid);
+    std::vector<Vec3f> hits;
+    for (std::size_t i = 0; i < rays.kind.size(); ++i) {
+      if (rays.kind[i] == PixelRay::hits) hits.push_back(rays.end_world_m(i));
+    }
+    belief.cloud.add(hits, belief.cloud.config().leaf_m);
+    belief.has_depth_return |= !hits.empty();
+  }
 }
 
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,

@@ -46,21 +46,28 @@ struct PlannerModel {
   TravelConfig travel = {};
   std::vector<CameraModel> cameras;
   std::vector<LidarModel> lidars;
+  /// What looks at a view: the cameras, then the sectors of the LIDARs that do
+  /// (sensors/sights.hpp).
+  std::vector<CameraModel> sights;
+  /// Of each LIDAR: its sectors are sights [first_sector[i], first_sector[i + 1]), maybe none.
+  std::vector<std::size_t> first_sector;
   std::optional<GimbalConfig> gimbal;  // of the cameras that have one
   std::vector<double> pitches_rad;     // that it offers; without one only 0
   std::vector<ViewRays> view_rays;     // by those pitches
-  double view_voxels = 0.0;            // of the cameras' frusta together, up to maximum range
+  double view_voxels = 0.0;            // of what looks, its frusta together, up to maximum range
 
   GridGeometry geometry() const { return {workspace_m, belief.map.resolution_m}; }
   /// The rays of a view whose gimbal has this pitch, or the nearest that it offers.
   const ViewRays& rays_at(double gimbal_pitch_rad) const;
   /// Whether the gimbal reaches this pitch; without one, only 0 means anything.
   bool can_pitch(double gimbal_pitch_rad) const;
+  /// Whether sweeps of this LIDAR are views.
+  bool looks(std::size_t lidar) const { return first_sector[lidar] < first_sector[lidar + 1]; }
 };
 
-/// Where a camera took a frame, as believed.
+/// Where a camera took a frame, or a LIDAR's sector its part of a sweep, as believed.
 struct FramePose {
-  int camera = 0;
+  int camera = 0;                                  // into PlannerModel::sights
   Isometry T_world_camera = Isometry::Identity();  // optical frame
 };
 
@@ -73,7 +80,7 @@ struct Belief {
   std::vector<FramePose> frame_poses;  // in their order
   ShadowBand shadow;
   double floor_z_m;               // returns below were taken for the floor
-  bool has_depth_return = false;  // any camera has seen a surface
+  bool has_depth_return = false;  // any view has seen a surface
 };
 
 /// Thrown out of a planner that was asked to stop in the middle of its work.
@@ -107,6 +114,11 @@ void integrate_profile(const PlannerModel& model, std::span<const LidarScan> sca
 /// Adds sweeps that were taken between views.
 void integrate_sweeps(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
                       Belief& belief);
+
+/// Adds sweeps that are views, one after the other, to the map and to the cloud as cameras' frames
+/// are.
+void integrate_looks(const PlannerModel& model, std::span<const LidarScan> scans, Scratch& scratch,
+                     Belief& belief);
 
 /// Adds the frames of one view, camera by camera.
 void integrate_view(const PlannerModel& model, std::span<const DepthFrame> frames, Scratch& scratch,

@@ -92,13 +92,12 @@ struct Cover {
                           [this] { task.scratch.heed_stop(); });
       check(checker, task.model, candidate);
       if (!candidate.rejected) {
-        candidate.rejected = cluster_rejection(task.model.cameras, task.belief.grid, cluster, view,
+        candidate.rejected = cluster_rejection(task.model.sights, task.belief.grid, cluster, view,
                                                false, task.fvs.fov_margin_m);
       }
       std::vector<bool> seen;
       if (!candidate.rejected) {
-        seen =
-            points_in_sight(task.fvs.culling, task.model.cameras, task.belief.grid, view, left_m);
+        seen = points_in_sight(task.fvs.culling, task.model.sights, task.belief.grid, view, left_m);
         candidate.covers = static_cast<int>(std::ranges::count(seen, true));
         if (*candidate.covers == 0 && task.fvs.needs_visible_cluster) {
           candidate.rejected = Rejection::cluster_hidden;

@@ -118,7 +118,7 @@ struct Decider {
                 {.view = {}, .sampler = Sampler::fvs, .cluster = rank});
     for (Candidate& candidate : views) {
       if (candidate.rejected) continue;
-      candidate.rejected = cluster_rejection(model.cameras, belief.grid, cluster, candidate.view,
+      candidate.rejected = cluster_rejection(model.sights, belief.grid, cluster, candidate.view,
                                              fvs.needs_visible_cluster);
     }
     return views;

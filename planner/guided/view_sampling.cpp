@@ -141,7 +141,7 @@ void find_clusters_to_try(const FvsConfig& fvs, const Belief& belief,
 
 double voxels_in_view(VoxelsInView which, const PlannerModel& model) {
   if (which == VoxelsInView::frusta) return model.view_voxels;
-  const CameraConfig& c = model.cameras.front().config;
+  const CameraConfig& c = model.sights.front().config;
   const double beyond = std::pow(c.range_min_m / c.range_max_m, 3);
   return 0.25 * frustum_m3(c) * (1.0 - beyond) / std::pow(model.belief.map.resolution_m, 3);
 }

@@ -131,6 +131,10 @@ ScanUpdate ScanInserter::compute_update(const FrameRays& rays, const DepthFrame&
   if (can_project(grid_, frame, camera) && is_faster_projected(grid_, camera)) {
     return frames_.compute_update(rays, frame, camera, map, threads);
   }
+  return compute_update(rays);
+}
+
+ScanUpdate ScanInserter::compute_update(const FrameRays& rays) {
   std::vector<ScanRay> each;
   for (std::size_t i = 0; i < rays.kind.size(); ++i) {
     if (rays.kind[i] == PixelRay::none) continue;

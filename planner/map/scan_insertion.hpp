@@ -57,6 +57,8 @@ class ScanInserter {
   /// gives the same map.
   ScanUpdate compute_update(const FrameRays& rays, const DepthFrame& frame,
                             const CameraModel& camera, const OccupancyGrid& map, int threads);
+  /// Ray by ray, whatever they are the rays of.
+  ScanUpdate compute_update(const FrameRays& rays);
 
   /// Inserts the sweeps of a profile, each one update, in their order. LidarScan::lidar says which
   /// of `lidars` took a sweep.

@@ -7,8 +7,10 @@
 
 namespace gnbv {
 
-std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m) {
-  const std::vector<Vec3f>& beams = lidar.beams_lidar;
+std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m,
+                             NoReturn no_return) {
+  std::vector<Vec3f> memory;
+  const std::span<const Vec3f> beams = lidar.beams_at(scan.begin_s, memory);
   GNBV_CHECK(scan.range_m.size() == beams.size(), "{} ranges for {} beams", scan.range_m.size(),
              beams.size());
   const auto range_min_m = static_cast<float>(lidar.config.range_min_m);
@@ -19,11 +21,24 @@ std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, dou
     const float range_m = scan.range_m[b];
     if (!(range_m >= range_min_m)) continue;
     const bool has_return = range_m <= range_max_m;
+    if (!has_return && no_return == NoReturn::unknown) continue;
     const double along_m = has_return ? range_m : lidar.config.range_max_m;
     const Vec3 end_m = scan.T_world_lidar * (along_m * beams[b].cast<double>());
     rays.push_back({end_m.cast<float>(), has_return && end_m.z() >= floor_z_m});
   }
   return rays;
+}
+
+void compute_sweep_rays(const LidarScan& scan, const LidarModel& lidar, double floor_z_m,
+                        FrameRays& rays, NoReturn no_return) {
+  const std::vector<ScanRay> each = rays_of(scan, lidar, floor_z_m, no_return);
+  rays.origin_world_m = scan.T_world_lidar.translation().cast<float>();
+  rays.kind.clear();
+  for (std::vector<float>& column : rays.end_m) column.clear();
+  for (const ScanRay& ray : each) {
+    rays.kind.push_back(ray.hit ? PixelRay::hits : PixelRay::clears);
+    for (int a = 0; a < 3; ++a) rays.end_m[a].push_back(ray.end_world_m[a]);
+  }
 }
 
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays) {

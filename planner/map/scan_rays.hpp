@@ -22,7 +22,8 @@ struct ScanRay {
 };
 
 /// Rays of a sweep in beam order, without those of beams that say nothing.
-std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m);
+std::vector<ScanRay> rays_of(const LidarScan& scan, const LidarModel& lidar, double floor_z_m,
+                             NoReturn no_return = NoReturn::free);
 
 /// The ends of the rays that hit: the points of the cloud.
 std::vector<Vec3f> surface_points_world_m(std::span<const ScanRay> rays);
@@ -46,6 +47,9 @@ struct FrameRays {
 
 /// Fills `rays`, reusing its memory.
 void compute_frame_rays(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
+                        FrameRays& rays, NoReturn no_return = NoReturn::free);
+/// The same of rays_of(), without depths: for those who go ray by ray.
+void compute_sweep_rays(const LidarScan& scan, const LidarModel& lidar, double floor_z_m,
                         FrameRays& rays, NoReturn no_return = NoReturn::free);
 
 }  // namespace gnbv

@@ -100,7 +100,7 @@ std::vector<ViewPose> lay_hemisphere(const RouteConfig& config, const PlannerMod
     const Vec3 inside_m = p_m.cwiseMax(box_m.min()).cwiseMin(box_m.max());
     const Vec3 inwards = center_m - inside_m;
     views.push_back({inside_m, std::atan2(inwards.y(), inwards.x()),
-                     pitch_along(model.cameras.front(), inwards)});
+                     pitch_along(model.sights.front(), inwards)});
   }
   order_by_nearest(start.p_world_m, views);
   return without_repetitions(std::move(views));
@@ -112,7 +112,7 @@ std::vector<ViewPose> lay_lawnmower(const RouteConfig& config, const PlannerMode
                                     int /*count*/) {
   const auto [obstacles_m, structure_m] = known_structure(map);
   if (obstacles_m.empty()) return {};
-  const CameraModel& camera = model.cameras.front();
+  const CameraModel& camera = model.sights.front();
   const double across_m = 2.0 * config.standoff_m * (1.0 - config.overlap);
   // beside a sphere's rim there is nothing in range
   const double beside = camera.config.range_max_m / config.standoff_m;

@@ -46,14 +46,14 @@ constexpr double kLook_m = 0.5;
 constexpr double kLook_rad = deg_to_rad(15.0);
 
 bool has_frames_between(const PlannerModel& model) {
-  return std::any_of(model.cameras.begin(), model.cameras.end(),
+  return std::any_of(model.sights.begin(), model.sights.end(),
                      [](const CameraModel& camera) { return camera.config.rate_hz > 0.0; });
 }
 
 /// What the frames since the last plan saw of the patches of that plan, each patch once.
 std::vector<SeenPatch> seen_since(const Step& step) {
   const TourState& state = step.state;
-  std::vector<FramePose> kept(step.model.cameras.size(), {.camera = -1});
+  std::vector<FramePose> kept(step.model.sights.size(), {.camera = -1});
   std::vector<FramePose> looks;
   for (const FramePose& look : std::span(step.belief.frame_poses).subspan(state.frames_taken)) {
     FramePose& last = kept[static_cast<std::size_t>(look.camera)];
@@ -82,7 +82,7 @@ void update_surface(const Step& step) {
   state.cells.add(ranged, step.belief.grid, step.scratch.threads, step.stop, false);
   state.cells.add(
       fresh, step.belief.grid, step.scratch.threads, step.stop, true,
-      certainties(fresh, looks, step.model.cameras, SurfaceCells::kNear * state.cells.detail_m()));
+      certainties(fresh, looks, step.model.sights, SurfaceCells::kNear * state.cells.detail_m()));
   state.frames_taken = step.belief.frame_poses.size();
   const Gain gain = state.calibration.settle(state.cells);
   const bool is_short = gain.found < step.config.replan_below * gain.predicted;
@@ -104,7 +104,7 @@ void observe_nodes(const Step& step) {
   state.visibility.follow(step.scene(), state.roadmap, first, kObservedAgain, threads, step.stop);
   if (!step.config.surface_views) return;
   const std::vector<Vec3> more_m =
-      points_for_unseen({step.belief.grid, state.space, step.model.cameras}, state.patches,
+      points_for_unseen({step.belief.grid, state.space, step.model.sights}, state.patches,
                         state.seen_from_anywhere(), state.searched);
   if (more_m.empty()) return;
   for (const Vec3& p_m : more_m) state.roadmap.add(p_m);

@@ -100,8 +100,8 @@ TourState::TourState(const TourConfig& config, const PlannerModel& model)
       space(model.geometry(), model.navigation_m, model.no_fly, model.validity.collision_radius_m),
       roadmap(model.geometry(), model.navigation_m,
               config.lattice_step_m > 0.0 ? config.lattice_step_m
-                                          : automatic_step_m(model.cameras, model.navigation_m)),
-      visibility(config, model.cameras, model.pitches_rad, model.workspace_m) {}
+                                          : automatic_step_m(model.sights, model.navigation_m)),
+      visibility(config, model.sights, model.pitches_rad, model.workspace_m) {}
 
 bool TourState::is_refused(const ViewPose& pose) const {
   return std::any_of(refused.begin(), refused.end(),

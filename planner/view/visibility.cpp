@@ -130,6 +130,24 @@ std::vector<Vec3> ring_ends_camera_m(const CameraModel& camera, double resolutio
   return ends;
 }
 
+/// The same of a LIDAR's sector along its beams, of which those are left out that end less than a
+/// voxel beside another one.
+std::vector<Vec3> beam_ends_camera_m(const CameraModel& camera, double resolution_m) {
+  const CameraConfig& c = camera.config;
+  const auto stride = [&](double px_per_rad) {
+    return std::max(1, static_cast<int>(resolution_m / c.range_max_m * px_per_rad));
+  };
+  std::vector<Vec3> ends;
+  for (int v = 0; v < c.height_px; v += stride(camera.fy_px)) {
+    for (int u = 0; u < c.width_px; u += stride(camera.fx_px)) {
+      if (const auto xy = camera.lens->direction_at(u + 0.5, v + 0.5)) {
+        ends.push_back(c.range_max_m * xy->homogeneous().normalized());
+      }
+    }
+  }
+  return ends;
+}
+
 }  // namespace
 
 ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_m) {
@@ -163,9 +181,13 @@ ViewRays make_view_rays(std::span<const CameraModel> cameras, double resolution_
     camera.pyramid_m3 = resolution_m * resolution_m * depth_m / 3.0;
     camera.first = rays.end_body_m[0].size();
     if (model.is_radial()) {
-      for (const Vec3& end_m : ring_ends_camera_m(model, resolution_m)) {
+      const bool is_sector = model.lens->is_panorama();
+      for (const Vec3& end_m : is_sector ? beam_ends_camera_m(model, resolution_m)
+                                         : ring_ends_camera_m(model, resolution_m)) {
         add(model.T_body_camera * end_m);
       }
+      const auto count = static_cast<double>(rays.end_body_m[0].size() - camera.first);
+      if (is_sector) camera.pyramid_m3 = frustum_m3(model.config) / count;
     }
     for (int top = 0; top < rows && !model.is_radial(); top += kTile) {
       for (int left = 0; left < columns; left += kTile) {

@@ -16,8 +16,8 @@ namespace gnbv {
 
 /// The rays along which a view is looked at, in the body frame, in columns: one per voxel of each
 /// camera's plane (of a fisheye's sphere) at maximum range (released code: 47 x 34 for 60 x 45
-/// degrees, 8 m and 0.2 m), in tiles of 4 x 4 neighbours, which end close to each other and fill a
-/// vector. Each camera's rays are padded to full vectors.
+/// degrees, 8 m and 0.2 m), or along the beams of a LIDAR's sector, in tiles of 4 x 4 neighbours,
+/// which end close to each other and fill a vector. Each camera's rays are padded to full vectors.
 struct ViewRays {
   struct Camera {
     Vec3 origin_body_m = Vec3::Zero();

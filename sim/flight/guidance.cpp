@@ -160,6 +160,11 @@ RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig
           share * config.yaw_acceleration_rad_s2, share * config.yaw_jerk_rad_s3};
 }
 
+Vec3 place_on_leg_m(const ViewPose& from, const ViewPose& goal, double time_s, double speed_m_s,
+                    const GuidanceConfig& config, const VehicleConfig& vehicle) {
+  return Leg(from, goal, speed_m_s, config, vehicle).at(time_s).p_world_m;
+}
+
 double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
                       const GuidanceConfig& config, const VehicleConfig& vehicle) {
   return Leg(from, goal, speed_m_s, config, vehicle).duration_s();

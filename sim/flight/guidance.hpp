@@ -69,6 +69,10 @@ RestToRest::Limits turn_limits(const GuidanceConfig& config, const VehicleConfig
 double leg_duration_s(const ViewPose& from, const ViewPose& goal, double speed_m_s,
                       const GuidanceConfig& config, const VehicleConfig& vehicle);
 
+/// Where the reference is then.
+Vec3 place_on_leg_m(const ViewPose& from, const ViewPose& goal, double time_s, double speed_m_s,
+                    const GuidanceConfig& config, const VehicleConfig& vehicle);
+
 /// A quadrotor comes to rest so much later than its reference (measured: 0.5 s to 1.9 s).
 constexpr double kArrival_s = 2.0;
 

@@ -86,6 +86,11 @@ struct RigidVehicle::Scene {
     add_static(world_in.structure);
     add_static(world_in.obstacles);
     terrain_shape = add_static(world_in.terrain);
+    for (const MovingBody& mover : world_in.movers) {
+      if (add_static(mover.mesh) == nullptr) continue;
+      movers.push_back({statics.size() - 1, boxes_m.size() - 1, mover.motion});
+    }
+    begin_motion();
     add_body(airframe, T_world_body);
   }
   /// With the same meshes.
@@ -93,9 +98,12 @@ struct RigidVehicle::Scene {
       : meshes(other.meshes),
         terrain_shape(other.terrain_shape),
         has_ground(other.has_ground),
+        movers(other.movers),
+        ticks(other.ticks),
         hull_shape(other.hull_shape) {
     if (has_ground) add_static(&ground_shape);
     for (const auto& mesh : meshes) add_static(*mesh);
+    begin_motion();
     add_body(airframe, T_world_body);
   }
   ~Scene() {
@@ -136,6 +144,31 @@ struct RigidVehicle::Scene {
     mesh.shape->getAabb(btTransform::getIdentity(), low_m, high_m);
   }
 
+  struct Mover {
+    std::size_t fixed, box;  // into `statics` and `boxes_m`
+    BodyMotion motion;
+    std::array<btVector3, 2> box_at_rest_m = {};
+  };
+  void begin_motion() {
+    for (Mover& mover : movers) {
+      mover.box_at_rest_m = boxes_m[mover.box];
+      statics[mover.fixed]->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    }
+    move_bodies();
+  }
+  /// Where they are at this tick.
+  void move_bodies() {
+    for (const Mover& mover : movers) {
+      const btVector3 offset_m =
+          to_bullet(mover.motion.offset_at(static_cast<double>(ticks) * kTick_s));
+      btTransform T = btTransform::getIdentity();
+      T.setOrigin(offset_m);
+      statics[mover.fixed]->setWorldTransform(T);
+      world.updateSingleAabb(statics[mover.fixed].get());
+      for (int i = 0; i < 2; ++i) boxes_m[mover.box][i] = mover.box_at_rest_m[i] + offset_m;
+    }
+  }
+
   /// Whether the hull could come near anything that stands there within a tick.
   bool is_near_something(const btVector3& v_m_s) const {
     constexpr double kMargin_m = 0.1;  // above Bullet's margin of shapes and threshold of contacts
@@ -152,6 +185,8 @@ struct RigidVehicle::Scene {
   std::vector<std::shared_ptr<StaticMesh>> meshes;
   const btCollisionShape* terrain_shape = nullptr;
   bool has_ground = false;
+  std::vector<Mover> movers;
+  std::int64_t ticks = 0;
   double reach_of_hull_m = 0.0;
   std::vector<std::array<btVector3, 2>> boxes_m;  // of the meshes
   btStaticPlaneShape ground_shape{btVector3(0, 0, 1), 0.0};
@@ -268,6 +303,8 @@ void RigidVehicle::step(const RateControl& control, const Vec3& wind_world_m_s) 
   Vec3 omega_mid_world = omega_world(rotation(0.5 * kTick_s * omega0_world) * R0, L_mid_world);
   omega_mid_world = omega_world(rotation(0.5 * kTick_s * omega_mid_world) * R0, L_mid_world);
   btRigidBody& body = *scene_->body;
+  ++scene_->ticks;
+  scene_->move_bodies();
   body.setLinearVelocity(to_bullet(v_mid_world));
   body.setAngularVelocity(to_bullet(omega_mid_world));
   const bool is_near = scene_->is_near_something(body.getLinearVelocity());

@@ -37,7 +37,10 @@ std::string refusal(const std::function<void(OnboardSettings&)>& change) {
 
 TEST(Onboard, RefusesWhatNobodyCanPlanWith) {
   EXPECT_EQ(refusal([](OnboardSettings&) {}), "");
-  EXPECT_THAT(refusal([](OnboardSettings& s) { s.cameras.clear(); }),
+  EXPECT_THAT(refusal([](OnboardSettings& s) {
+                s.cameras.clear();
+                s.lidars.clear();
+              }),
               testing::HasSubstr("needs a camera"));
   EXPECT_THAT(refusal([](OnboardSettings& s) { s.workspace_m.setEmpty(); }),
               testing::HasSubstr("needs a workspace"));

@@ -81,7 +81,8 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
   const Vec3 middle_m =
       (0.5 * (low_m + high_m)).cwiseMax(navigation_m.min()).cwiseMin(navigation_m.max());
   const Vec3 step_m = ((high_m - low_m) / (2.0 * kSteps)).cwiseMax(0.0);
-  const std::vector<NorthernView> views(scenario.cameras.begin(), scenario.cameras.end());
+  const std::vector<CameraConfig> sights = sights_of(scenario);
+  const std::vector<NorthernView> views(sights.begin(), sights.end());
   Vec3 best_m(middle_m.x(), navigation_m.min().y(), middle_m.z());
   std::size_t most = in_view(views, best_m, structure.surface_world_m);
   bool is_room = is_room_at(scenario, structure, best_m);
@@ -110,8 +111,13 @@ Vec3 start_on_south_face(const Scenario& scenario, const StructureExtent& struct
 
 double flight_margin_m(const Scenario& scenario) {
   double range_m = 0.0;
+  constexpr double kNoFarther_m = 16.0;  // LIDARs see farther than anybody has to fly
   for (const CameraConfig& camera : scenario.cameras) {
     range_m = std::max(range_m, return_end_m(camera));
+  }
+  for (const LidarConfig& lidar : scenario.lidars) {
+    if (!looks_at_views(lidar, !scenario.cameras.empty())) continue;
+    range_m = std::max(range_m, std::min(lidar.range_max_m, kNoFarther_m));
   }
   return std::max(kShareOfRange * range_m,
                   scenario.planner.validity.collision_radius_m + kClearance_m);

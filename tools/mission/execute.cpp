@@ -47,6 +47,12 @@ void need_memory_for(const Scenario& scenario, int threads) {
                   threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30));
 }
 
+void need_cameras(const Scenario& scenario) {
+  if (!scenario.cameras.empty()) return;
+  throw BadInput(
+      fmt::format("--frames: {} has no camera whose frames could be kept", scenario.name));
+}
+
 /// A saved profile that cannot be used is found before anything is written.
 void need_saved_profile(const Scenario& scenario) {
   const ProfilingConfig& profiling = scenario.planner.profiling;
@@ -194,6 +200,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     say(warning);
   }
   need_saved_profile(scenario);
+  if (options.frames) need_cameras(scenario);
   const UserScores user_scores = start_user_utility(scenario.planner.utility);
   const std::unique_ptr<UserPlanner> in_file = start_user_planner(scenario, threads);
   if (scenario.planner.symmetry.enabled) symmetry_module();  // throws when it is missing

@@ -15,15 +15,19 @@ void add(const TriangleMesh& more, TriangleMesh& mesh) {
   }
 }
 
-TriangleMesh load_obstacles(const Scenario& scenario, std::vector<std::string>& warnings) {
+void load_obstacles(const Scenario& scenario, World& world, std::vector<std::string>& warnings) {
   const Material material{.name = "obstacle", .rgb = {0.6F, 0.6F, 0.6F}};
-  TriangleMesh all;
+  world.obstacles = {};
+  world.movers.clear();
   for (const ObstacleConfig& obstacle : scenario.obstacles) {
-    add(obstacle.file.path.empty() ? box_mesh(obstacle.box_m, material)
-                                   : load_mesh(obstacle.file, &warnings),
-        all);
+    TriangleMesh mesh = obstacle.file.path.empty() ? box_mesh(obstacle.box_m, material)
+                                                   : load_mesh(obstacle.file, &warnings);
+    if (obstacle.motion.waypoints.empty()) {
+      add(mesh, world.obstacles);
+    } else {
+      world.movers.push_back({std::move(mesh), motion_of(obstacle.motion)});
+    }
   }
-  return all;
 }
 
 }  // namespace
@@ -42,7 +46,7 @@ TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& 
 
 void load_surroundings(const Scenario& scenario, World& world, std::vector<std::string>& warnings) {
   world.has_ground = has_flat_ground(scenario);
-  world.obstacles = load_obstacles(scenario, warnings);
+  load_obstacles(scenario, world, warnings);
   if (!scenario.terrain.path.empty()) world.terrain = load_mesh(scenario.terrain, &warnings);
   world.terrain_floor_z_m = scenario.planner.floor_z_m;
 }

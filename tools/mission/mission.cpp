@@ -43,8 +43,13 @@ void turn_gimbal(Mission& m, const ViewPose& view) {
 /// frame is believed one tick late, so that one due on arrival is left to the view itself.
 std::function<void(const Flight&)> looks_on_the_way(Mission& m, const ViewPose& view) {
   return [&m, &view, pending = std::vector<DepthFrame>()](const Flight& flight) mutable {
-    m.scanner.tick(flight, m.scenario.planner.profiling.flight_rate_hz > 0.0);
-    integrate_sweeps(m.model, m.scanner.take_scans(), m.scratch, m.out.belief);
+    m.scanner.tick(flight, true);
+    for (const LidarScan& scan : m.scanner.take_scans()) {
+      const bool is_view =
+          m.model.lidars[static_cast<std::size_t>(scan.lidar)].config.looks == LidarLooks::flight;
+      (is_view ? integrate_looks : integrate_sweeps)(m.model, std::span(&scan, 1), m.scratch,
+                                                     m.out.belief);
+    }
     integrate_view(m.model, pending, m.scratch, m.out.belief);
     pending.clear();
     turn_gimbal(m, view);
@@ -82,9 +87,20 @@ std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   return over;
 }
 
-std::vector<DepthFrame> sense(Mission& m) {
-  const ScopeTimer timer(m.view_wall.sense_s);
+struct Sensed {
   std::vector<DepthFrame> frames;
+  std::vector<LidarScan> sweeps;
+};
+
+Sensed sense(Mission& m) {
+  const ScopeTimer timer(m.view_wall.sense_s);
+  Sensed sensed;
+  std::vector<DepthFrame>& frames = sensed.frames;
+  for (std::size_t i = 0; i < m.model.lidars.size(); ++i) {
+    if (!m.model.looks(i)) continue;
+    sensed.sweeps.push_back(
+        sense_sweep(m.scene, m.model.lidars[i], static_cast<int>(i), *m.flight, m.scenario.seed));
+  }
   for (std::size_t i = 0; i < m.model.cameras.size(); ++i) {
     if (auto frame = take_frame(m, i)) frames.push_back(std::move(*frame));
   }
@@ -101,13 +117,15 @@ std::vector<DepthFrame> sense(Mission& m) {
                   .time_s = time_s(*m.flight),
                   .T_world_body = m.flight->estimate().T_world_body,
                   .depth = frames,
-                  .colour = colours});
-  return frames;
+                  .colour = colours,
+                  .sweeps = sensed.sweeps});
+  return sensed;
 }
 
-void integrate(Mission& m, std::span<const DepthFrame> frames) {
+void integrate(Mission& m, const Sensed& sensed) {
   const ScopeTimer timer(m.view_wall.map_s);
-  integrate_view(m.model, frames, m.scratch, m.out.belief);
+  integrate_view(m.model, sensed.frames, m.scratch, m.out.belief);
+  integrate_looks(m.model, sensed.sweeps, m.scratch, m.out.belief);
 }
 
 void record(Mission& m, const Decision& decision) {

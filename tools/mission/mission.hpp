@@ -16,13 +16,14 @@
 
 namespace gnbv {
 
-/// The frames of a view, camera by camera, before they are believed.
+/// The frames and sweeps of a view, sensor by sensor, before they are believed.
 struct SensedView {
   std::size_t iteration = 0;
   double time_s = 0.0;
   const Isometry& T_world_body;  // as believed
   std::span<const DepthFrame> depth;
-  std::span<const ColourFrame> colour;  // empty unless somebody wants them
+  std::span<const ColourFrame> colour;     // empty unless somebody wants them
+  std::span<const LidarScan> sweeps = {};  // of the LIDARs that look
 };
 
 /// Watches a mission. Decides nothing and changes nothing of it.

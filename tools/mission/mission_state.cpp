@@ -1,6 +1,7 @@
 #include "tools/mission/mission_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
@@ -135,6 +136,12 @@ FreeSpace free_space(const Mission& m) {
           m.model.validity.collision_radius_m};
 }
 
+bool is_clear_of_movers(const Mission& m, const Vec3& p_world_m, double in_s) {
+  const double radius_m = m.model.validity.collision_radius_m;
+  return std::isinf(
+      m.scene.distance_to_known_movers_m(p_world_m, time_s(*m.flight) + in_s, radius_m));
+}
+
 std::optional<std::vector<Vec3>> way_over_the_top(const Mission& m, const Vec3& from_m,
                                                   const Vec3& goal_m, bool reads_map) {
   constexpr PathSearchConfig kSearch = {.max_expansions = 20000};
@@ -170,9 +177,57 @@ std::optional<Termination> over_after(const Mission& m, LegEnd end) {
   return has_energy_to_go_on(m) ? Termination::max_flight_time : Termination::battery;
 }
 
+namespace {
+
+/// The shortest wait after which the leg, and a rest at its end, keep clear of bodies whose motion
+/// is known, as does the wait itself.
+std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
+                                        const ViewPose& goal, double speed_m_s) {
+  constexpr double kStep_s = 0.2;
+  constexpr double kLongest_s = 60.0;
+  const GuidanceConfig& guidance = m.scenario.guidance;
+  const double leg_s =
+      std::min(leg_duration_s(from, goal, speed_m_s, guidance, m.scenario.vehicle), kLongestLeg_s);
+  const auto is_clear_after = [&](double wait_s) {
+    for (double at_s = 0.0; at_s <= leg_s + kArrival_s; at_s += kStep_s) {
+      const Vec3 p_m = place_on_leg_m(from, goal, at_s, speed_m_s, guidance, m.scenario.vehicle);
+      if (!is_clear_of_movers(m, p_m, wait_s + at_s)) return false;
+    }
+    return true;
+  };
+  for (double wait_s = 0.0; wait_s <= kLongest_s; wait_s += kStep_s) {
+    if (is_clear_after(wait_s)) return wait_s;
+    if (!is_clear_of_movers(m, from.p_world_m, wait_s)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
-  const Vec3 from_m = m.flight->estimate().T_world_body.translation();
+  const Isometry T_here = m.flight->estimate().T_world_body;
+  const Vec3 from_m = T_here.translation();
+  const ViewPose here = {from_m, yaw_of(T_here), goal.gimbal_pitch_rad};
+  const auto wait_s = wait_for_movers_s(m, here, goal, speed_m_s);
+  if (!wait_s) {
+    ++m.out.legs_timed_out;
+    m.current = here;
+    return std::nullopt;
+  }
+  if (*wait_s > 0.0) {
+    const std::vector<Reference> still(
+        static_cast<std::size_t>(std::lround(*wait_s / kReference_s)),
+        {.p_world_m = from_m, .yaw_rad = here.yaw_rad});
+    std::size_t at = 0;
+    const LegEnd held =
+        fly_path(*m.flight, still, at, 1, m.scenario.vehicle, [&](const Flight& flight) {
+          keep_track(m);
+          on_tick(flight);
+          return goes_on(m);
+        });
+    if (const auto over = over_after(m, held)) return over;
+  }
   const LegEnd end = fly_leg(
       *m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
       [&](const Flight& flight) {

@@ -77,6 +77,10 @@ void keep_track(Mission& m);
 /// Where the vehicle may fly by what is believed now.
 FreeSpace free_space(const Mission& m);
 
+/// Whether no body whose motion is known comes nearer than the collision radius then, so many
+/// seconds from now.
+bool is_clear_of_movers(const Mission& m, const Vec3& p_world_m, double in_s);
+
 /// The points from one place to another, the goal last: up to the top of the workspace, across and
 /// down; where nobody may fly there, or the map has something in the way, around that; nothing when
 /// no such way is known. `reads_map`: false asks of no-fly boxes alone, for an estimate.
@@ -89,7 +93,9 @@ void tell(const Mission& m, Event event, const Told&... told) {
   for (MissionObserver* const observer : m.inputs.observers) (observer->*event)(told...);
 }
 
-/// Flies one leg and keeps its track; `on_tick` runs after each tick.
+/// Flies one leg and keeps its track; `on_tick` runs after each tick. Waits first, where it is,
+/// until no body whose motion is known will be in the way; one that no wait of a minute makes clear
+/// is given up, as one that times out.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick);
 /// At path speed, with nothing to do on the way.

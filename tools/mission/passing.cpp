@@ -27,6 +27,7 @@ bool is_way_free(const Mission& m, const Vec3& from_m, std::span<const Reference
   for (std::size_t i = kChord - 1; i < path.size() + kChord - 1; i += kChord) {
     const Vec3& to_m = path[std::min(i, path.size() - 1)].p_world_m;
     if (!box_m.contains(to_m) || !space.is_leg_free(at_m, to_m)) return false;
+    if (!is_clear_of_movers(m, to_m, static_cast<double>(i + 1) * kReference_s)) return false;
     at_m = to_m;
   }
   return true;
@@ -156,9 +157,14 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
   }
   legs.push_back(next.view);
   const bool was_planned_from_here = m.scenario.guidance.trajectory == Trajectory::legs;
+  const bool bodies_move = std::ranges::any_of(
+      m.scenario.obstacles, [](const auto& body) { return !body.motion.waypoints.empty(); });
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vec3 here_m = m.flight->estimate().T_world_body.translation();
-    if (!was_planned_from_here && !free_space(m).is_leg_free(here_m, legs[i].p_world_m)) {
+    const bool is_open = was_planned_from_here
+                             ? !bodies_move || free_space(m).is_leg_clear(here_m, legs[i].p_world_m)
+                             : free_space(m).is_leg_free(here_m, legs[i].p_world_m);
+    if (!is_open) {
       set_current(m, m.gimbal_pitch_rad);
       ++m.out.legs_timed_out;
       return std::nullopt;

@@ -97,8 +97,11 @@ Budgets budgets_of(const ScoreConfig& score) {
 
 bool is_noisy(const Scenario& scenario) {
   return scenario.vehicle.estimate.model != EstimateModel::none ||
-         std::ranges::any_of(scenario.cameras, [](const CameraConfig& camera) {
-           return camera.noise.model != DepthNoise::none;
+         std::ranges::any_of(
+             scenario.cameras,
+             [](const CameraConfig& camera) { return camera.noise.model != DepthNoise::none; }) ||
+         std::ranges::any_of(scenario.lidars, [&](const LidarConfig& lidar) {
+           return lidar.range_sigma_m > 0.0 && looks_at_views(lidar, !scenario.cameras.empty());
          });
 }
 

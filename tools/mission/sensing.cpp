@@ -1,5 +1,6 @@
 #include "tools/mission/sensing.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 std::size_t ticks_of(const LidarConfig& lidar) {
   return static_cast<std::size_t>(std::ceil(sweep_duration_s(lidar) / kTick_s));
 }
+
+double time_of(std::int64_t tick) { return static_cast<double>(tick) * kTick_s; }
 
 }  // namespace
 
@@ -30,7 +33,8 @@ bool is_dropped(const CameraConfig& camera, std::size_t camera_index, std::int64
 
 DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int camera_index,
                        const Flight& flight, std::uint64_t seed, int threads) {
-  DepthFrame frame = capture_depth(scene, camera, camera_index, flight.state().T_world_body,
+  DepthFrame frame = capture_depth(scene.at(time_of(flight.tick())), camera, camera_index,
+                                   flight.state().T_world_body,
                                    {seed, static_cast<std::uint64_t>(flight.tick())}, threads);
   frame.T_world_camera = flight.estimate().T_world_body * camera.T_body_camera;
   return frame;
@@ -38,10 +42,20 @@ DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int cam
 
 ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Flight& flight, int threads) {
-  ColourFrame frame =
-      capture_colour(scene, camera, camera_index, flight.state().T_world_body, threads);
+  ColourFrame frame = capture_colour(scene.at(time_of(flight.tick())), camera, camera_index,
+                                     flight.state().T_world_body, threads);
   frame.T_world_camera = flight.estimate().T_world_body * camera.T_body_camera;
   return frame;
+}
+
+LidarScan sense_sweep(const RayScene& scene, const LidarModel& lidar, int lidar_index,
+                      const Flight& flight, std::uint64_t seed) {
+  const std::array<Isometry, 1> T_world_body = {flight.state().T_world_body};
+  LidarScan scan =
+      capture_scan(scene.at(time_of(flight.tick())), lidar, lidar_index, T_world_body, kTick_s,
+                   {seed, static_cast<std::uint64_t>(flight.tick())}, time_of(flight.tick()));
+  scan.T_world_lidar = flight.estimate().T_world_body * lidar.T_body_lidar;
+  return scan;
 }
 
 ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars,
@@ -50,7 +64,9 @@ ProfileScanner::ProfileScanner(const RayScene& scene, std::span<const LidarModel
 
 void ProfileScanner::tick(const Flight& flight, bool is_on) {
   for (std::size_t i = 0; is_on && i < lidars_.size(); ++i) {
-    if (!is_due(rate_hz_.value_or(lidars_[i].config.rate_hz), flight.tick())) continue;
+    const LidarConfig& lidar = lidars_[i].config;
+    const bool has_own_rate = !rate_hz_ || lidar.looks == LidarLooks::flight;
+    if (!is_due(has_own_rate ? lidar.rate_hz : *rate_hz_, flight.tick())) continue;
     sweeps_.push_back({i, flight.tick(), flight.estimate().T_world_body, {}});
   }
   for (Sweep& sweep : sweeps_) sweep.T_world_body.push_back(flight.state().T_world_body);
@@ -63,8 +79,10 @@ void ProfileScanner::tick(const Flight& flight, bool is_on) {
 
 void ProfileScanner::finish(const Sweep& sweep) {
   const LidarModel& lidar = lidars_[sweep.lidar];
-  LidarScan scan = capture_scan(scene_, lidar, static_cast<int>(sweep.lidar), sweep.T_world_body,
-                                kTick_s, {seed_, static_cast<std::uint64_t>(sweep.begin_tick)});
+  const double begin_s = time_of(sweep.begin_tick);  // where bodies move, it sees them then
+  LidarScan scan =
+      capture_scan(scene_.at(begin_s), lidar, static_cast<int>(sweep.lidar), sweep.T_world_body,
+                   kTick_s, {seed_, static_cast<std::uint64_t>(sweep.begin_tick)}, begin_s);
   scan.T_world_lidar = sweep.T_world_body_believed * lidar.T_body_lidar;
   scans_.push_back(std::move(scan));
 }

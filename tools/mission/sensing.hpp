@@ -28,10 +28,14 @@ DepthFrame sense_depth(const RayScene& scene, const CameraModel& camera, int cam
 ColourFrame sense_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                          const Flight& flight, int threads);
 
+/// One sweep of the LIDAR that is a view: at one instant, as a camera's frame.
+LidarScan sense_sweep(const RayScene& scene, const LidarModel& lidar, int lidar_index,
+                      const Flight& flight, std::uint64_t seed);
+
 /// Collects the sweeps of all LIDARs while the vehicle flies.
 class ProfileScanner {
  public:
-  /// `rate_hz`: of every LIDAR; nothing: each its own.
+  /// `rate_hz`: of every LIDAR that does not look in flight; nothing: each its own.
   ProfileScanner(const RayScene& scene, std::span<const LidarModel> lidars, std::uint64_t seed,
                  std::optional<double> rate_hz = std::nullopt);
 

@@ -48,7 +48,7 @@ page::PlanData pack_plan(const RunRecord& record, std::size_t max_bytes, page::A
   const std::size_t room =
       std::max(kLeastElements, (max_bytes - std::min(max_bytes, ranges_bytes)) / kPlannedBytes /
                                    std::max<std::size_t>(1, plans.size()));
-  const CameraModel camera = make_camera_model(record.scenario.cameras.at(0));
+  const CameraModel camera = make_camera_model(sights_of(record.scenario).front());
   std::vector<float> poses;
   std::vector<std::uint32_t> begins;  // of each plan
   const auto end_now = [&] { return static_cast<std::uint32_t>(poses.size() / 7); };

@@ -157,7 +157,7 @@ page::RunData run_data(const RunRecord& record, page::Arrays& arrays) {
   run.has_ground = has_flat_ground(scenario);
   run.profile_end_s = record.profile_end_s;
   run.views_begin_s = record.views_begin_s;
-  for (const CameraConfig& config : scenario.cameras) {
+  for (const CameraConfig& config : sights_of(scenario)) {
     run.cameras.push_back({.name = config.name,
                            .fov_x = shown_fov_rad(config, 0),
                            .fov_y = shown_fov_rad(config, 1),

@@ -117,8 +117,9 @@ PanelLayout lay_out(const PictureKind& kind, std::span<RunSource* const> runs,
   std::vector<Vec3> points;
   for (RunSource* const run : runs) {
     kind.frame(*run, options, points);
-    if (!kind.has_inset || !has_words(options)) continue;
-    const CameraConfig& camera = run->record().scenario.cameras.front();
+    const std::vector<CameraConfig>& cameras = run->record().scenario.cameras;
+    if (!kind.has_inset || !has_words(options) || cameras.empty()) continue;
+    const CameraConfig& camera = cameras.front();
     needs.inset_aspect =
         std::max(needs.inset_aspect, 1.0 * camera.height_px / std::max(1, camera.width_px));
   }

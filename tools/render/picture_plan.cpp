@@ -74,7 +74,7 @@ void add_tour(const RunRecord& record, const Vec3& here_m, std::span<const ViewP
     (is_soon ? soon_m : later_m).push_back(views[i].p_world_m);
     const ViewSize soon{3.6 * unit_m, 34.0 * unit_m, 0.9 * unit_m, 0.25F};
     const ViewSize later{2.2 * unit_m, i % step == 0 ? 16.0 * unit_m : 0.0, 0.5 * unit_m};
-    add_view(record.scenario.cameras, views[i], is_soon ? soon : later, colour, scene);
+    add_view(sights_of(record.scenario), views[i], is_soon ? soon : later, colour, scene);
   }
   if (!later_m.empty()) {
     later_m.insert(later_m.begin(), soon_m.back());

@@ -32,7 +32,7 @@ void frame_series(RunSource& run, const PictureOptions& options,
                   std::vector<Vec3>& points_world_m) {
   kPathPicture.frame(run, options, points_world_m);
   const RunRecord& record = run.record();
-  for (const CameraConfig& camera : record.scenario.cameras) {
+  for (const CameraConfig& camera : sights_of(record.scenario)) {
     const double length_m = pyramid_m(record, run.world(), camera);
     for (const ViewRecord& view : record.views) {
       const ViewPose& pose = view.decision.view;
@@ -134,7 +134,7 @@ RenderView Snapshots::view_at(double time_s) const {
   Vec3 ahead = structure_m.center() - place_m;
   ahead.z() = 0.0;
   const double reach_m =
-      std::min(run_.record().scenario.cameras.front().range_max_m,
+      std::min(sights_of(run_.record().scenario).front().range_max_m,
                std::max(ahead.norm(), kLeastReach * structure_m.diagonal().norm()));
   ahead = ahead.norm() > 1e-6 ? Vec3(ahead.normalized()) : Vec3(Vec3::UnitX());
   const Vec3 back = Eigen::AngleAxisd(kShoulder_rad, Vec3::UnitZ()) * Vec3(-ahead);
@@ -152,8 +152,8 @@ const Image& Snapshots::seen_by_camera(std::size_t iteration) {
   const ViewRecord& view = record.views[iteration];
   const CameraConfig& config = record.scenario.cameras.front();
   const CameraModel camera = turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);
-  ColourFrame frame =
-      capture_colour(run_.scene(), camera, 0, T_world_body(view.time_s), run_.threads());
+  ColourFrame frame = capture_colour(run_.scene().at(view.time_s), camera, 0,
+                                     T_world_body(view.time_s), run_.threads());
   Image image{config.width_px, config.height_px, {}};
   for (const Rgb8& pixel : frame.rgb) image.rgb.insert(image.rgb.end(), pixel.begin(), pixel.end());
   onboard_.emplace(iteration, std::move(image));
@@ -173,7 +173,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
       scene.series_box_m->extend(sample.T_world_body.translation());
     }
   }
-  add_ghost(run_, 0.5F, scene);
+  add_ghost(run_, 0.5F, scene, time_s);
 
   const std::size_t seen = run_.cloud().view_points[iteration];
   const auto count = std::lower_bound(points_.begin(), points_.end(), seen) - points_.begin();
@@ -192,7 +192,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   const AirframeParameters& airframe = record.scenario.vehicle.airframe;
   const double scale = std::max(1.0, 42.0 * unit_m / rotor_span_m(airframe));
   add_vehicle(airframe, T, scale, scene);
-  for (const CameraConfig& camera : record.scenario.cameras) {
+  for (const CameraConfig& camera : sights_of(record.scenario)) {
     // seen from near, as by a camera that follows, it would fill the picture
     const double length_m =
         std::min(pyramid_m(record, run_.world(), camera), (follows_ ? 90.0 : 130.0) * unit_m);
@@ -212,7 +212,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
                     entry(looks::kSeen, LegendItem::Mark::dot),
                     {"vehicle" + larger, {looks::kFrontRotors.rgb()}},
                     entry(looks::kCamera, LegendItem::Mark::pyramid)};
-  picture.inset = seen_by_camera(iteration);
+  if (!record.scenario.cameras.empty()) picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   return picture;
 }

@@ -26,9 +26,11 @@ RunInput mesh_input(const char* key, const std::string& name, const TriangleMesh
 std::vector<RunInput> world_inputs(const Scenario& scenario, const World& world) {
   std::vector<RunInput> inputs = {
       mesh_input("structure", structure_name(scenario.structure), world.structure)};
-  if (!world.obstacles.faces.empty()) {
+  TriangleMesh obstacles = world.obstacles;
+  for (const MovingBody& mover : world.movers) append(obstacles, mover.mesh);
+  if (!obstacles.faces.empty()) {
     const std::string name = fmt::format("{} obstacles", scenario.obstacles.size());
-    inputs.push_back(mesh_input("obstacles", name, world.obstacles));
+    inputs.push_back(mesh_input("obstacles", name, obstacles));
   }
   if (!world.terrain.faces.empty()) {
     inputs.push_back(mesh_input("terrain", scenario.terrain.path, world.terrain));

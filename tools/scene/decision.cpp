@@ -188,7 +188,7 @@ Covered add_points_to_cover(const Scenario& scenario, const ReplayedDecision& de
                             double unit_m, RenderScene& scene) {
   const auto& [belief, plan] = decision;
   const FvsConfig& fvs = scenario.planner.fvs;
-  const std::vector<CameraModel> cameras = camera_models(scenario);
+  const std::vector<CameraModel> cameras = planner_model(scenario).sights;
   std::array<DotsItem, 2> dots;  // left, covered
   Covered out;
   for (std::size_t cluster = 0; cluster < plan.clusters.size(); ++cluster) {
@@ -221,9 +221,10 @@ void add_chosen_view(const RunRecord& record, const World& world, const Belief& 
   const double beside_m = 3.0 * belief.grid.geometry().resolution_m();
   Box3 near_m = bounds_m(world.structure);
   near_m = Box3(near_m.min().array() - beside_m, near_m.max().array() + beside_m);
-  add_view(record.scenario.cameras, view, {.pyramid_m = 60.0 * unit_m, .edge_m = 1.3 * unit_m},
-           looks::kCamera.rgb(), scene);
-  for (const CameraConfig& camera : record.scenario.cameras) {
+  const std::vector<CameraConfig> sights = sights_of(record.scenario);
+  add_view(sights, view, {.pyramid_m = 60.0 * unit_m, .edge_m = 1.3 * unit_m}, looks::kCamera.rgb(),
+           scene);
+  for (const CameraConfig& camera : sights) {
     const Isometry T_world_camera =
         frustum_of(camera, T_world_body(view), view.gimbal_pitch_rad, 1.0, {}).T_world_camera;
     const Vec3 eye = T_world_camera.translation();

@@ -103,7 +103,8 @@ void add_views(const RunRecord& record, int every, const FlightLook& look, Rende
                         .pyramid_m = i % step == 0 ? 27.0 * look.unit_m : 0.0,
                         .edge_m = 0.75 * unit_m,
                         .face_opacity = 0.25F};
-    add_view(record.scenario.cameras, record.views[i].decision.view, mark, path_ramp(share), scene);
+    add_view(sights_of(record.scenario), record.views[i].decision.view, mark, path_ramp(share),
+             scene);
   }
 }
 

@@ -57,8 +57,22 @@ void add_ground(RunSource& run, RenderScene& scene) {
   scene.surfaces.back().casts_shadow = false;
 }
 
+/// Bodies where they are then, and the ways that they go, through their middles.
+void add_movers(RunSource& run, double time_s, float opacity, RenderScene& scene) {
+  for (const MovingBody& mover : run.world().movers) {
+    const Box3 box_m = bounds_m(mover.mesh);
+    TriangleMesh mesh = mover.mesh;
+    for (Vec3f& p_m : mesh.vertices_m) p_m += mover.motion.offset_at(time_s).cast<float>();
+    add_in_one_colour(mesh, looks::kObstacle, opacity, scene);
+    std::vector<Vec3> way = mover.motion.corners_m();
+    for (Vec3& corner_m : way) corner_m += box_m.center();
+    scene.tubes.push_back(path_tube(way, 0.01 * box_m.diagonal().norm(), looks::kObstacle.rgb()));
+  }
+}
+
 void add_surroundings(RunSource& run, RenderScene& scene) {
   add_in_one_colour(run.world().obstacles, looks::kObstacle, 1.0F, scene);
+  add_movers(run, 0.0, 1.0F, scene);
   TriangleMesh boxes;
   for (const NoFlyConfig& keep_out : run.record().scenario.no_fly) {
     append(boxes, box_mesh(keep_out.box_m));
@@ -74,10 +88,11 @@ std::vector<LegendItem> legend_of_surroundings(RunSource& run) {
   return legend;
 }
 
-void add_ghost(RunSource& run, float opacity, RenderScene& scene) {
+void add_ghost(RunSource& run, float opacity, RenderScene& scene, double time_s) {
   add_ground(run, scene);
   add_in_one_colour(run.world().structure, looks::kStructure, opacity, scene);
   add_in_one_colour(run.world().obstacles, looks::kObstacle, opacity, scene);
+  add_movers(run, time_s, opacity, scene);
 }
 
 void add_structure(RunSource& run, const RenderView& view, RenderScene& scene) {

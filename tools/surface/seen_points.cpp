@@ -103,8 +103,8 @@ std::vector<Vec3f> uncovered_profile(const RunCloud& cloud, float leaf_m, int th
 }
 
 bool cameras_run_in_flight(const RunRecord& record) {
-  return std::any_of(record.scenario.cameras.begin(), record.scenario.cameras.end(),
-                     [](const CameraConfig& camera) { return camera.rate_hz > 0.0; });
+  return std::ranges::any_of(sights_of(record.scenario),
+                             [](const CameraConfig& camera) { return camera.rate_hz > 0.0; });
 }
 
 /// The points of each part of the flight in which cameras or LIDARs ran: the profile, the legs, and
@@ -157,7 +157,7 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
       cloud.points_world_m.end());
   seen.sensors_world_m.resize(seen.points_world_m.size());
   std::vector<CameraModel> cameras;
-  for (const CameraConfig& camera : record.scenario.cameras) {
+  for (const CameraConfig& camera : sights_of(record.scenario)) {
     cameras.push_back(make_camera_model(camera));
   }
   const PointTree tree(seen.points_world_m);

@@ -1,0 +1,86 @@
+// Missions among bodies that move.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/score/cloud_metrics.hpp"
+#include "tests/support/flown.hpp"
+#include "tools/mission/reference.hpp"
+
+namespace gnbv {
+namespace {
+
+/// A pillar that goes up and down before the south side, where the mission begins.
+std::vector<std::string> pillar(bool is_known, const std::string& utility) {
+  return {
+      "obstacles=[{box_m: {min: [-3.8, -2.6, 0], max: [-3.4, -2.2, 3]}, motion: {waypoints: "
+      "[{offset_m: [7.2, 0, 0]}], speed_m_s: 0.7, known: " +
+          std::string(is_known ? "true" : "false") + "}}]",
+      "start.position_m=[0, -3.2, 1.2]",
+      "start.jitter_m=[0, 0, 0]",
+      "planner.profiling.method=none",
+      "planner.utility.name=" + utility,
+      "planner.termination.max_iterations=10"};
+}
+
+/// Nearest that any recorded pose came to the pillar.
+double nearest_m(const Flown& f) {
+  double nearest = 1e9;
+  for (const TrajectorySample& sample : f.result.trajectory) {
+    nearest = std::min(nearest, f.scene.distance_to_known_movers_m(
+                                    sample.T_world_body.translation(), sample.time_s, 9.0));
+  }
+  return nearest;
+}
+
+TEST(MovingObstacle, OneWhoseMotionIsKnownIsWaitedForSoThatNobodyComesNearIt) {
+  for (const std::string utility : {"proposed", "tour"}) {
+    const Flown flown(smoke(pillar(true, utility)));
+    EXPECT_NE(flown.result.termination, Termination::collision) << utility;
+    EXPECT_GE(nearest_m(flown), 0.95 * flown.scenario.planner.validity.collision_radius_m)
+        << utility;
+    EXPECT_GE(flown.result.views.size(), 8U);
+  }
+}
+
+TEST(MovingObstacle, IsSeenAndItsOldPlacesAreSeenToBeFreeAgain) {
+  const Flown flown(smoke(pillar(false, "proposed")));
+  // on its way, beyond all of the structure, what was seen occupied
+  const OccupancyGrid& grid = flown.result.belief.grid;
+  const GridGeometry& voxels = grid.geometry();
+  const double last_s = flown.result.views.back().time_s;
+  std::size_t phantom = 0, freed = 0;
+  for (VoxelIndex v = 0; v < voxels.voxel_count(); ++v) {
+    const Vec3 p_m = voxels.center_m(voxels.key_at(v));
+    if (p_m.y() > -2.0 || p_m.y() < -2.8 || p_m.z() < 0.4 || p_m.z() > 2.8) continue;
+    const RayScene now = flown.scene.at(last_s);
+    freed += grid.state(v) == VoxelState::free;
+    phantom += grid.state(v) == VoxelState::occupied;
+  }
+  EXPECT_GT(freed, 5 * phantom);
+  // of the cloud none of its points is scored as the structure's
+  std::size_t seen = 0;
+  const auto points = flown.result.belief.cloud.points_world_m();
+  const std::vector<std::uint8_t> is_kept = points_of_structure(flown.scene, points, 2);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].y() > -2.15F || points[i].z() < 0.35F) continue;
+    ++seen;
+    EXPECT_EQ(is_kept[i], 0) << points[i].transpose();
+  }
+  EXPECT_GT(seen, 20U);
+}
+
+TEST(MovingObstacle, LeavesMissionsTheSameAtAnyNumberOfThreadsAndReplayed) {
+  const Scenario scenario = smoke(pillar(true, "tour"));
+  const Flown one(scenario, {}, 1);
+  MissionInputs again;
+  for (std::size_t i = 0; i < 5; ++i) again.replay.push_back(one.result.views[i].decision);
+  for (const Flown& other : {Flown(scenario, {}, 2), Flown(scenario, again, 2)}) {
+    EXPECT_TRUE(std::ranges::equal(one.result.belief.cloud.points_world_m(),
+                                   other.result.belief.cloud.points_world_m()));
+    EXPECT_EQ(one.result.flight_time_s, other.result.flight_time_s);
+  }
+}
+
+}  // namespace
+}  // namespace gnbv
