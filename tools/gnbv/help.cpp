@@ -135,8 +135,10 @@ std::string meant_instead(const CLI::App& app, std::span<const std::string> word
     return nearest ? fmt::format("did you mean `gnbv {}`?", *nearest) : "";
   }
   std::vector<std::string_view> options;
-  std::vector<const CLI::App*> parts = app.get_subcommand(*first)->get_subcommands(all);
-  parts.push_back(app.get_subcommand(*first));
+  const CLI::App* const command = app.get_subcommand(*first);
+  std::vector<const CLI::App*> parts = {command};
+  const auto below = command->get_subcommands(all);
+  parts.insert(parts.end(), below.begin(), below.end());
   for (const CLI::App* const part : parts) {
     for (const CLI::Option* const option : part->get_options(all)) {
       options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());

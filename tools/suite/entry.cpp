@@ -9,6 +9,7 @@
 #include "assets/random/random_structure.hpp"
 #include "bench/score/content_cache.hpp"
 #include "planner/planners.hpp"
+#include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_file.hpp"

@@ -52,7 +52,7 @@ void write_suite_page(const Suite& suite, const std::vector<Submission>& entries
                       const fs::path& folder, const SuiteFlights& flights) {
   standings_tables(suite, entries);  // refuses before anything is flown
   make_folder(folder);
-  if (const std::string why = why_no_page(); !why.empty()) {
+  if (const auto why = why_no_page(); !why.empty()) {
     say("no page of a mission: {}", why);
   }
   for (const Submission& entry : entries) {

@@ -66,7 +66,7 @@ Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& 
 }
 
 /// Names what of the figures is another.
-struct Comparison {
+struct FlownAgain {
   std::string of;
   std::vector<std::string>& differences;
 
@@ -82,7 +82,7 @@ struct Comparison {
   }
 };
 
-void compare_figures(const TaskFigures& now, const TaskFigures& said, const Comparison& compare) {
+void compare_figures(const TaskFigures& now, const TaskFigures& said, const FlownAgain& compare) {
   compare("termination", now.termination, said.termination);
   compare("views", now.views, said.views);
   compare("spent", now.spent, said.spent);
@@ -94,7 +94,7 @@ void compare_figures(const TaskFigures& now, const TaskFigures& said, const Comp
   compare("result_sha256", now.result_sha256, said.result_sha256);
 }
 
-void compare_tracks(const TrackFigures& now, const TrackFigures& said, const Comparison& compare) {
+void compare_tracks(const TrackFigures& now, const TrackFigures& said, const FlownAgain& compare) {
   compare("score", now.score.mean, said.score.mean);
   compare("score_low", now.score.low, said.score.low);
   compare("score_high", now.score.high, said.score.high);
@@ -110,7 +110,7 @@ void compare_tracks(const TrackFigures& now, const TrackFigures& said, const Com
 
 /// Views and files as they were and as they are.
 void compare_records(const fs::path& run, const Submission& submission, const std::string& task,
-                     const Comparison& compare, const fs::path& records) {
+                     const FlownAgain& compare, const fs::path& records) {
   const auto now = read_view_records(run / kIterationsFile);
   const auto said = read_view_records(records / kRecordFile);
   if (now.size() != said.size()) compare("views on record", now.size(), said.size());
@@ -152,7 +152,7 @@ std::vector<std::string> verify_submission(const Submission& submission, const S
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::string& task = tasks[i].structure;
     const SubmittedMission& said = submission.missions[i];
-    const Comparison compare{task, differences};
+    const FlownAgain compare{task, differences};
     if (outcomes[i].status == CellStatus::missing) throw CommandFailed("interrupted");
     if (outcomes[i].status != CellStatus::done) {
       differences.push_back(fmt::format("{}: {}", task, outcomes[i].failure));
