@@ -28,6 +28,10 @@ constexpr std::string_view kHead =
     "# The tasks of gnbv-bench. `gnbv bench freeze` writes this file. A changed number is a new\n"
     "# version: results name the SHA-256 of their track. docs/suite.md has the rules.\n";
 
+/// No number of a suite is larger; a seed has 32 bits.
+template <typename Number>
+constexpr Number kMost = static_cast<Number>(sizeof(Number) > 4 ? 1e12 : 1e9);
+
 /// A map of the file, key by key; what is wrong is kept.
 class SuiteMap {
  public:
@@ -69,7 +73,7 @@ class SuiteMap {
     const bool is_read =
         node->kind == YamlNode::Kind::scalar && !node->is_quoted &&
         std::from_chars(node->text.data(), end, value) == std::from_chars_result{end, {}};
-    if (!is_read || !(value >= Number{0}) || value > Number(1e9)) {
+    if (!is_read || !(value >= Number{0}) || value > kMost<Number>) {
       fault(*node, key, "expects a number, 0 or more");
     }
   }

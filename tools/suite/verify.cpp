@@ -26,8 +26,7 @@ EntryPlanner planner_of(const Submission& submission, const fs::path& records) {
     return planner;
   }
   for (const std::string& setting : submission.settings) {
-    planner.settings.push_back(
-        {setting, fmt::format("{}: settings: {}", submission.file.string(), setting)});
+    planner.settings.push_back({setting, "settings: " + setting});
   }
   return planner;
 }
@@ -128,11 +127,9 @@ void compare_records(const fs::path& run, const Submission& submission, const st
   }
 }
 
-}  // namespace
-
-std::vector<std::string> verify_submission(const Submission& submission, const Suite& suite,
-                                           const fs::path& folder, const SuiteFlights& flights,
-                                           std::vector<fs::path>* runs) {
+std::vector<std::string> verify(const Submission& submission, const Suite& suite,
+                                const fs::path& folder, const SuiteFlights& flights,
+                                std::vector<fs::path>* runs) {
   need_of_suite(submission, suite);
   const SuiteTrack& track = suite.track(submission.track);
   const std::vector<SuiteTask> tasks = suite.tasks_of(track.name);
@@ -173,6 +170,19 @@ std::vector<std::string> verify_submission(const Submission& submission, const S
                    {"track " + track.name, differences});
   }
   return differences;
+}
+
+}  // namespace
+
+std::vector<std::string> verify_submission(const Submission& submission, const Suite& suite,
+                                           const fs::path& folder, const SuiteFlights& flights,
+                                           std::vector<fs::path>* runs) {
+  try {
+    return verify(submission, suite, folder, flights, runs);
+  } catch (const BadInput& error) {  // of what it holds, which lies in other files meanwhile
+    const std::string file = submission.file.string(), what = error.what();
+    throw BadInput(what.starts_with(file) ? what : fmt::format("{}: {}", file, what));
+  }
 }
 
 }  // namespace gnbv

@@ -15,7 +15,9 @@ using ::testing::HasSubstr;
 /// Coverage c after the profile and after each view, at those metres and seconds.
 CoverageCurve curve_of(const std::vector<double>& coverage, const std::vector<double>& metres,
                        const std::vector<double>& seconds = {}) {
-  CoverageCurve curve{.metres = metres, .seconds = seconds.empty() ? metres : seconds};
+  CoverageCurve curve;
+  curve.metres = metres;
+  curve.seconds = seconds.empty() ? metres : seconds;
   for (const double c : coverage) {
     curve.accurate.push_back({c, 1.0, 1.0});
     curve.coverage.push_back({1.0, 1.0, 1.0});  // counts nowhere
@@ -47,8 +49,9 @@ TEST(TaskScore, SecondsCountFromTakeOffWithTheProfile) {
 
 TEST(TaskScore, EffortsAreToSharesOfTheCeilingWithinTheBudget) {
   const SuiteTask task{.track = "t", .structure = "s", .budget = 6.0, .ceiling = 0.8, .best = 0.5};
-  const RunFigures run{.termination = "route_flown",
-                       .curve = curve_of({0.1, 0.72, 0.76, 0.8}, {0, 2, 7, 9})};
+  RunFigures run;
+  run.termination = "route_flown";
+  run.curve = curve_of({0.1, 0.72, 0.76, 0.8}, {0, 2, 7, 9});
   const TaskFigures figures = task_figures(run, task, Effort::metres);
   EXPECT_EQ(figures.to_90, 2.0);
   EXPECT_EQ(figures.to_95, std::nullopt);  // at 7 m
