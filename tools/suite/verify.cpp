@@ -41,8 +41,8 @@ void need_no_code(const Submission& submission, const Scenario& scenario) {
                              submission.file.string()));
 }
 
-/// Lays down the records of a mission as a run that was interrupted at its end, which this program
-/// flies again view by view, comparing.
+/// The mission of a task as it is flown again; its records lie beside it. Of a planner of the
+/// program's nothing of the record is taken up: it has to come to the same views by itself.
 Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& task,
              const fs::path& folder, TaskScenarios& scenarios) {
   const fs::path records = folder / "records" / task.structure;
@@ -53,14 +53,6 @@ Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& 
   }
   Cell cell = cells_of_entry(suite, {task}, planner_of(submission, records), scenarios).front();
   need_no_code(submission, cell.resolved);
-  Sha256 hash;
-  hash.add(read_file(records / kRecordFile));
-  cell.id += "-" + hash.hex().substr(0, 8);  // another record is another flight
-  const CellFiles files = cell_files(folder, cell.id);
-  if (!fs::exists(files.run) && !fs::exists(files.part)) {
-    make_folder(files.part);
-    fs::copy_file(records / kRecordFile, files.part / kIterationsFile);
-  }
   return cell;
 }
 

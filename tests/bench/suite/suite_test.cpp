@@ -51,12 +51,12 @@ TEST(TaskScore, EffortsAreToSharesOfTheCeilingWithinTheBudget) {
   const SuiteTask task{.track = "t", .structure = "s", .budget = 6.0, .ceiling = 0.8, .best = 0.5};
   RunFigures run;
   run.termination = "route_flown";
-  run.curve = curve_of({0.1, 0.72, 0.76, 0.8}, {0, 2, 7, 9});
+  run.curve = curve_of({0.1, 0.73, 0.77, 0.8}, {0, 2, 7, 9});
   const TaskFigures figures = task_figures(run, task, Effort::metres);
   EXPECT_EQ(figures.to_90, 2.0);
   EXPECT_EQ(figures.to_95, std::nullopt);  // at 7 m
-  EXPECT_EQ(figures.coverage, 0.72);
-  EXPECT_DOUBLE_EQ(figures.share, (2 * 0.1 + 4 * 0.72) / 6.0 / 0.5);
+  EXPECT_EQ(figures.coverage, 0.73);
+  EXPECT_DOUBLE_EQ(figures.share, (2 * 0.1 + 4 * 0.73) / 6.0 / 0.5);
 }
 
 TEST(Bootstrap, OfZerosAndOnesIsTheBinomial) {
