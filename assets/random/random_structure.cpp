@@ -1,9 +1,13 @@
 #include "assets/random/random_structure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 
 #include "assets/random/parts.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/sha256.hpp"
 
 namespace gnbv {
 namespace {
@@ -57,6 +61,12 @@ void keep_used_materials(TriangleMesh& mesh) {
 std::string_view random_kind(std::uint64_t seed) {
   const std::uint64_t bits = random_bits({seed, Stream::random_structure, ~std::uint64_t{0}, 0});
   return kRandomKinds[bits % kRandomKinds.size()];
+}
+
+std::uint64_t drawn_seed(std::string_view text, std::string_view kind, int draw) {
+  Sha256 hash;
+  hash.add(fmt::format("{} {} {}", text, kind, draw));
+  return std::stoull(hash.hex().substr(0, 8), nullptr, 16);
 }
 
 TriangleMesh make_random_structure(std::uint64_t seed, std::string_view kind) {

@@ -16,6 +16,10 @@ constexpr std::array<std::string_view, 8> kRandomKinds = {"hall",   "tower", "ma
 /// What the seed chooses among kRandomKinds, each as likely as the others.
 std::string_view random_kind(std::uint64_t seed);
 
+/// A seed that anybody can draw again: the first 8 hexadecimal digits of the SHA-256 of
+/// "TEXT KIND DRAW", the text being a frozen commit, say.
+std::uint64_t drawn_seed(std::string_view text, std::string_view kind, int draw);
+
 /// Closed parts, outwards-facing, standing on the ground z = 0 about the z axis, 8 to 58 m in its
 /// largest extent along an axis, turned about z as chance has it. The same for a seed and kind
 /// always; `kind` is one of kRandomKinds.

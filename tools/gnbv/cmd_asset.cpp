@@ -9,7 +9,6 @@
 #include "scenarios/scenario.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/sha256.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
@@ -100,18 +99,12 @@ void print_list(bool json) {
   for (const std::string_view kind : kRandomKinds) fmt::print("{} --kind {}\n", kRandom, kind);
 }
 
-/// The draw that anybody can repeat: the first 8 hexadecimal digits of the SHA-256 of
-/// "TEXT KIND NUMBER".
-std::uint64_t drawn_seed(const AssetOptions& options) {
-  Sha256 hash;
-  hash.add(fmt::format("{} {} {}", options.drawn_from, options.kind, options.draw));
-  return std::stoull(hash.hex().substr(0, 8), nullptr, 16);
-}
-
 /// Fills in what of a random one was not given.
 TriangleMesh make(AssetOptions& options) {
   if (options.name != kRandom) return make_builtin_structure(options.name);
-  options.seed = options.drawn_from.empty() ? options.seed.value_or(1) : drawn_seed(options);
+  options.seed = options.drawn_from.empty()
+                     ? options.seed.value_or(1)
+                     : drawn_seed(options.drawn_from, options.kind, options.draw);
   if (options.kind.empty()) options.kind = random_kind(*options.seed);
   return make_random_structure(*options.seed, options.kind);
 }

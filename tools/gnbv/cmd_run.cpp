@@ -24,6 +24,7 @@
 #include "tools/run/run_directory.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/summary_json.hpp"
+#include "tools/terminal/piped_command.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/streams.hpp"
 
@@ -37,13 +38,14 @@ struct RunOptions {
   MissionOptions mission;
   bool json = false;
   std::optional<int> live_port = {};
+  std::string command = {};  // that sends the views
 };
 
 void need_route(const RunOptions& options, const Scenario& scenario) {
   if (options.mission.coverage && !options.mission.piped_views) {
     throw BadInput("--coverage: goes with --views -, whose answers it adds to");
   }
-  if (options.mission.piped_views && options.json) {
+  if (options.mission.piped_views && options.json && options.command.empty()) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
   }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
@@ -54,8 +56,10 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
 }
 
 void set_views(const std::string& file, RunOptions& options) {
-  options.mission.piped_views = file == "-";
-  options.scenario.views = file == "-" ? "" : file;
+  const bool is_command = file.starts_with('|');
+  options.command = is_command ? file.substr(1) : "";
+  options.mission.piped_views = file == "-" || is_command;
+  options.scenario.views = options.mission.piped_views ? "" : file;
 }
 
 /// What a mission flies in spite of: keys that do nothing, surface that is cleared through, and
@@ -127,6 +131,19 @@ void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
   }
 }
 
+/// The mission, with whoever is at the other end of the pipe.
+ExecutedMission fly(const RunOptions& options, const Scenario& scenario) {
+  std::optional<PipedCommand> command;
+  MissionOptions how = options.mission;
+  if (!options.command.empty()) {
+    PipedCommand& started = command.emplace(options.command);
+    how.views_fault = [&started] { return started.fault(); };
+  }
+  ExecutedMission mission = execute_mission(scenario, how);
+  if (how.piped_views) fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));
+  return mission;
+}
+
 void run(const RunOptions& options) {
   std::vector<std::string> unused_notes;
   const Scenario scenario = resolve_scenario(options.scenario, &unused_notes);
@@ -134,10 +151,8 @@ void run(const RunOptions& options) {
   if (has_ended(options, scenario)) return;
   say_doubts(scenario, unused_notes);
   const std::unique_ptr<LiveChild> live = watched(options);
-  const ExecutedMission mission = execute_mission(scenario, options.mission);
-  if (options.mission.piped_views) {
-    fmt::print("{}", pipe_end_line(mission.result, mission.folder.string()));
-  } else {
+  const ExecutedMission mission = fly(options, scenario);
+  if (!options.mission.piped_views || !options.command.empty()) {
     print_summary(options, scenario, mission.folder);
   }
   const MissionResult& result = mission.result;
@@ -163,7 +178,7 @@ void add_run_command(CLI::App& app) {
   command->add_option_function<std::string>(
       "--views", [options](const std::string& file) { set_views(file, *options); },
       "with --utility route: body poses to fly, CSV or TUM; -: one per line from stdin, each "
-      "answered by one line of JSON on stdout");
+      "answered by one line of JSON on stdout; '|COMMAND': the same with a command of the shell");
   command->add_flag("--coverage", mission.coverage,
                     "with --views -: answers tell the true coverage");
   add_preset_option(*command, options->scenario);

@@ -9,6 +9,7 @@ class App;
 
 namespace gnbv {
 
+void add_bench_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_fly_command(CLI::App& app);
 void add_run_command(CLI::App& app);

@@ -19,7 +19,7 @@ struct Example {
   std::string_view command;
   std::string_view lines;
 };
-constexpr std::array<Example, 18> kExamples = {
+constexpr std::array<Example, 19> kExamples = {
     {{"fly", "gnbv fly smoke\ngnbv fly aircraft --mavlink udpout://127.0.0.1:14550 --speed 2"},
      {"run",
       "gnbv run aircraft --seed 1 --out runs/first\n"
@@ -28,6 +28,11 @@ constexpr std::array<Example, 18> kExamples = {
      {"sweep", "gnbv sweep sweep.yaml --out runs/sweep --jobs 2"},
      {"table", "gnbv table aircraft --seeds 5 --jobs 2"},
      {"compare", "gnbv compare smoke --utilities proposed,bircher --seeds 8"},
+     {"bench",
+      "gnbv bench run --track small --planner tour -o tour --jobs 2\n"
+      "gnbv bench submit tour -o tour.zip\n"
+      "gnbv bench verify tour.zip\n"
+      "gnbv bench table tour.zip other.zip"},
      {"cache", "gnbv cache --prune"},
      {"ceiling", "gnbv ceiling aircraft"},
      {"render",
@@ -95,14 +100,19 @@ class FoldingFormatter : public CLI::Formatter {
 
 }  // namespace
 
+std::vector<CLI::App*> parts_of(CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
 void lay_out_help(CLI::App& app) {
   const auto formatter = std::make_shared<FoldingFormatter>();
   app.formatter(formatter);
   app.footer(
       "gnbv COMMAND --help says more. To begin with:\n  gnbv run smoke --out runs/first\n"
       "  gnbv render runs/first");
-  for (CLI::App* const command : app.get_subcommands([](const CLI::App*) { return true; })) {
+  for (CLI::App* const command : parts_of(app)) {
     command->formatter(formatter);
+    for (CLI::App* const part : parts_of(*command)) part->formatter(formatter);
     const auto example = std::find_if(kExamples.begin(), kExamples.end(), [&](const Example& e) {
       return e.command == command->get_name();
     });
@@ -127,8 +137,14 @@ std::string meant_instead(const CLI::App& app, std::span<const std::string> word
     return nearest ? fmt::format("did you mean `gnbv {}`?", *nearest) : "";
   }
   std::vector<std::string_view> options;
-  for (const CLI::Option* const option : app.get_subcommand(*first)->get_options(all)) {
-    options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
+  const CLI::App* const command = app.get_subcommand(*first);
+  std::vector<const CLI::App*> parts = {command};
+  const auto below = command->get_subcommands(all);
+  parts.insert(parts.end(), below.begin(), below.end());
+  for (const CLI::App* const part : parts) {
+    for (const CLI::Option* const option : part->get_options(all)) {
+      options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
+    }
   }
   for (const std::string& word : std::span(first, words.end())) {
     if (!word.starts_with("--")) continue;

@@ -12,6 +12,9 @@ class App;
 
 namespace gnbv {
 
+/// Its commands, or those of a command.
+std::vector<CLI::App*> parts_of(CLI::App& app);
+
 /// Help of all commands in lines of at most 80 columns, each with examples at its end. To be called
 /// when all commands have their options.
 void lay_out_help(CLI::App& app);

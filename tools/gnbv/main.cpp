@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   gnbv::add_sweep_command(app);
   gnbv::add_table_command(app);
   gnbv::add_compare_command(app);
+  gnbv::add_bench_command(app);
   gnbv::add_ceiling_command(app);
   gnbv::add_render_command(app);
   gnbv::add_export_command(app);

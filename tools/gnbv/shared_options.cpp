@@ -120,6 +120,7 @@ void print_bench(const BenchTables& bench, const std::string& format) {
 void refuse_what_is_not_finite(CLI::App& app) {
   const auto any = [](const auto*) { return true; };
   for (CLI::App* const command : app.get_subcommands(any)) {
+    refuse_what_is_not_finite(*command);
     for (CLI::Option* const option : command->get_options(any)) {
       if (!option->get_type_name().starts_with("FLOAT")) continue;
       option->check(number_check("a finite number", [](double x) {
@@ -134,6 +135,7 @@ void refuse_empty_values(CLI::App& app) {
   const CLI::Validator is_something(
       [](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
   for (CLI::App* const command : app.get_subcommands(any)) {
+    refuse_empty_values(*command);
     for (CLI::Option* const option : command->get_options(any)) {
       const bool takes_a_value = option->get_items_expected_max() > 0;
       const std::string name = option->get_name();

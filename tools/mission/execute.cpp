@@ -238,7 +238,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     }
     std::optional<ViewPipe> pipe;
     if (options.piped_views) {
-      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr)
+      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr,
+                   options.views_fault)
           .connect(inputs);
     }
     std::optional<UserPlannerLink> planner;

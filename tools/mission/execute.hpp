@@ -23,6 +23,7 @@ struct MissionOptions {
   bool frames = false;       // also write frames/
   bool piped_views = false;  // views come on stdin, answers go to stdout: view_pipe.hpp
   bool coverage = false;     // which then tell the coverage
+  std::function<std::string()> views_fault = {};  // why no more come, where that is a failure
   CeilingFrom ceiling = CeilingFrom::cache;
   const UserPlanner* planner = nullptr;  // asked for the views; the utility is `route`
   MissionObserver* observer = nullptr;   // told last

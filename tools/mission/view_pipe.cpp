@@ -32,6 +32,43 @@ void add_pose(const Isometry& T_world, Json& json) {
   json["qx_qy_qz_qw"] = {q.x(), q.y(), q.z(), q.w()};
 }
 
+/// What of the budgets is left; null where there is none.
+Json left_json(const TerminationConfig& config, const ViewRecord& view) {
+  const auto left = [](double budget, double spent) {
+    return budget > 0.0 ? Json(budget - spent) : Json(nullptr);
+  };
+  return {{"views", config.max_iterations - view.iteration - 1},
+          {"metres", left(config.max_distance_m, view.straight_m)},
+          {"seconds", left(config.max_flight_time_s, view.time_s)}};
+}
+
+Json box_json(const Box3& box_m) {
+  const Vec3 &a = box_m.min(), &b = box_m.max();
+  return {{"min", {a.x(), a.y(), a.z()}}, {"max", {b.x(), b.y(), b.z()}}};
+}
+
+/// What a planner may know before it flies.
+Json task_json(const Scenario& scenario) {
+  Json cameras = Json::array();
+  for (const CameraModel& model : camera_models(scenario)) {
+    cameras.push_back({{"name", model.config.name},
+                       {"width_px", model.config.width_px},
+                       {"height_px", model.config.height_px},
+                       {"fx_px", model.fx_px},
+                       {"fy_px", model.fy_px},
+                       {"cx_px", model.cx_px},
+                       {"cy_px", model.cy_px},
+                       {"has_lens", model.lens != nullptr},
+                       {"range_min_m", model.config.range_min_m},
+                       {"range_max_m", model.config.range_max_m}});
+  }
+  return {{"workspace_m", box_json(scenario.workspace_m)},
+          {"collision_radius_m", scenario.planner.validity.collision_radius_m},
+          {"resolution_m", scenario.planner.map.resolution_m},
+          {"leaf_m", scenario.planner.cloud.leaf_m},
+          {"cameras", std::move(cameras)}};
+}
+
 Json coverage_json(const SurfaceReference& reference, const Belief& belief) {
   const auto shares = coverage_at_all_sizes(reference.counted, belief.cloud.points_world_m());
   return {{"0.05", shares[0]}, {"0.10", shares[1]}, {"0.50", shares[2]}};
@@ -40,13 +77,18 @@ Json coverage_json(const SurfaceReference& reference, const Belief& belief) {
 }  // namespace
 
 ViewPipe::ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps_frames,
-                   const SurfaceReference* reference)
+                   const SurfaceReference* reference, std::function<std::string()> fault)
     : scenario_(scenario),
       directory_(directory),
       keeps_frames_(keeps_frames),
       reference_(reference),
+      fault_(std::move(fault)),
       lines_("stdin"),
-      on_sigpipe_(std::signal(SIGPIPE, SIG_IGN)) {}
+      on_sigpipe_(std::signal(SIGPIPE, SIG_IGN)) {
+  for (std::size_t i = 0; fault_ && i < scenario.cameras.size(); ++i) {
+    shared_.push_back(std::make_unique<SharedDepth>(i));
+  }
+}
 
 ViewPipe::~ViewPipe() { std::signal(SIGPIPE, on_sigpipe_); }
 
@@ -66,7 +108,9 @@ void ViewPipe::on_sensed(const SensedView& view) {
   T_world_body_ = view.T_world_body;
   frames_.clear();
   for (const DepthFrame& frame : view.depth) {
-    frames_.push_back({static_cast<std::size_t>(frame.camera), frame.T_world_camera});
+    const auto camera = static_cast<std::size_t>(frame.camera);
+    const bool is_shared = !shared_.empty() && shared_[camera]->write(frame.depth_m);
+    frames_.push_back({camera, frame.T_world_camera, is_shared ? shared_[camera]->path() : ""});
   }
 }
 
@@ -74,7 +118,11 @@ std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop)
   std::vector<ViewPose>& views = scenario_.planner.routes.views;
   while (views.size() < kMostUserViews) {
     const std::optional<std::string> line = input_.next(should_stop);
-    if (!line) return std::nullopt;
+    if (!line) {
+      const std::string fault = fault_ && !should_stop() ? fault_() : "";
+      if (!fault.empty()) throw UserUtilityFailed(fault);
+      return std::nullopt;
+    }
     try {
       const std::optional<ViewPose> view = lines_.read(*line);
       if (!view) continue;
@@ -86,6 +134,25 @@ std::optional<ViewPose> ViewPipe::next(const std::function<bool()>& should_stop)
     }
   }
   return std::nullopt;
+}
+
+/// Of those whose frames were not lost.
+void ViewPipe::add_cameras(const ViewRecord& view, Json& answer) const {
+  Json cameras = Json::array();
+  for (const TakenFrame& frame : frames_) {
+    const std::string& name = scenario_.cameras[frame.camera].name;
+    Json camera = {{"name", name}};
+    add_pose(frame.T_world_camera, camera);
+    if (!frame.shared_depth.empty()) camera["depth_f32"] = frame.shared_depth;
+    if (keeps_frames_) {
+      const auto stem = directory_.path() / kFramesFolder /
+                        frame_stem(static_cast<std::size_t>(view.iteration), name);
+      camera["rgb"] = stem.string() + ".rgb.png";
+      camera["depth"] = stem.string() + ".depth.png";
+    }
+    cameras.push_back(std::move(camera));
+  }
+  answer["cameras"] = std::move(cameras);
 }
 
 void ViewPipe::tell_refused(std::size_t index, Rejection reason) {
@@ -100,25 +167,14 @@ void ViewPipe::on_view(const ViewRecord& view, const Belief& belief) {
   answer["iteration"] = view.iteration;
   add_pose(T_world_body_, answer);
   answer["yaw_deg"] = rad_to_deg(yaw_of(T_world_body_));
-  Json cameras = Json::array();
-  for (const TakenFrame& frame : frames_) {
-    const std::string& name = scenario_.cameras[frame.camera].name;
-    Json camera = {{"name", name}};
-    add_pose(frame.T_world_camera, camera);
-    if (keeps_frames_) {
-      const auto stem = directory_.path() / kFramesFolder /
-                        frame_stem(static_cast<std::size_t>(view.iteration), name);
-      camera["rgb"] = stem.string() + ".rgb.png";
-      camera["depth"] = stem.string() + ".depth.png";
-    }
-    cameras.push_back(std::move(camera));
-  }
-  answer["cameras"] = std::move(cameras);
+  add_cameras(view, answer);
   answer["points"] = view.cloud_points;
   answer["new_points"] = view.cloud_points - points_before_;
   answer["entropy_nat"] = view.entropy_nat;
   answer["flown_m"] = view.flown_m;
   answer["time_s"] = view.time_s;
+  answer["left"] = left_json(scenario_.planner.termination, view);
+  if (view.iteration == 0) answer["task"] = task_json(scenario_);
   if (reference_ != nullptr) answer["coverage"] = coverage_json(*reference_, belief);
   points_before_ = view.cloud_points;
   tell_client(answer);

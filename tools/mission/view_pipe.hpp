@@ -3,10 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "bench/score/surface_reference.hpp"
 #include "tools/mission/mission.hpp"
+#include "tools/mission/shared_depth.hpp"
 #include "tools/run/run_directory.hpp"
 #include "tools/run/user_views.hpp"
 #include "tools/terminal/streams.hpp"
@@ -16,9 +19,11 @@ namespace gnbv {
 class ViewPipe final : public MissionObserver {
  public:
   /// `keeps_frames` and `reference` (may be null) say whether answers name images and tell the
-  /// coverage. Everything referred to stays with the caller.
+  /// coverage. `fault` (may be empty) is asked when the lines end: a sentence fails the mission; of
+  /// a command of this machine, which gets depth in shared memory. Everything referred to stays
+  /// with the caller.
   ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps_frames,
-           const SurfaceReference* reference);
+           const SurfaceReference* reference, std::function<std::string()> fault = {});
   ~ViewPipe() override;
   ViewPipe(const ViewPipe&) = delete;
   ViewPipe& operator=(const ViewPipe&) = delete;
@@ -37,11 +42,13 @@ class ViewPipe final : public MissionObserver {
  private:
   std::optional<ViewPose> next(const std::function<bool()>& should_stop);
   void tell_refused(std::size_t index, Rejection reason);
+  void add_cameras(const ViewRecord& view, nlohmann::ordered_json& answer) const;
 
   Scenario scenario_;
   RunDirectory& directory_;
   bool keeps_frames_;
   const SurfaceReference* reference_;
+  std::function<std::string()> fault_;
   StdinLines input_;
   ViewLines lines_;
   void (*on_sigpipe_)(int);   // as it was before
@@ -51,8 +58,10 @@ class ViewPipe final : public MissionObserver {
   struct TakenFrame {
     std::size_t camera = 0;  // of the scenario
     Isometry T_world_camera = Isometry::Identity();
+    std::string shared_depth = {};  // path; "": not shared
   };
   std::vector<TakenFrame> frames_;  // of the view at hand, without those that were lost
+  std::vector<std::unique_ptr<SharedDepth>> shared_;  // by camera
   std::size_t points_before_ = 0;
 };
 

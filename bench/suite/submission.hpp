@@ -1,0 +1,75 @@
+// A submission: one zip file that anybody can check by flying it again.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/suite/score.hpp"
+#include "bench/suite/suite.hpp"
+
+namespace gnbv {
+
+/// Whose views they are: a planner of the program's, which flies again by its settings, or somebody
+/// else's, whose views are flown again as they were given.
+enum class EntryKind { planner, views };
+constexpr std::array<std::string_view, 2> kEntryKindNames = {"planner", "views"};
+
+struct SubmittedMission {
+  TaskFigures figures;
+  std::map<std::string, std::string> files = {};  // SHA-256 by name: kRecordFile, ...
+  std::string trajectory_sha256 = {};  // of the whole trajectory.tum, of which the zip has a tenth
+
+  bool operator==(const SubmittedMission&) const = default;
+};
+
+/// Figures of a whole track.
+struct TrackFigures {
+  Interval score, coverage;                         // shares of the best known; coverage at the end
+  double public_score = 0.0, held_out_score = 0.0;  // 0 where the track has none
+  std::optional<double> to_90 = {}, to_95 = {};     // medians; none: half of them do not get there
+  double plan_s = 0.0;                              // mean over structures
+};
+
+struct Submission {
+  int suite_version = 1;
+  std::string track, track_sha256;
+  std::string name;  // of the planner, as tables call it
+  EntryKind kind = EntryKind::planner;
+  std::vector<std::string> settings = {};  // KEY=VALUE, of a planner of the program's
+  std::string description, licence, machine;
+  std::string program, program_sha256;  // version, and flying_source_id()
+  std::vector<SubmittedMission> missions = {};
+  TrackFigures figures = {};
+
+  std::filesystem::path file = {};                  // that it was read from
+  std::map<std::string, std::string> records = {};  // "missions/TASK/FILE" and content
+};
+
+constexpr const char* kRecordFile = "iterations.csv";
+constexpr const char* kGivenFile = "views.csv";  // of EntryKind::views
+constexpr const char* kPathFile = "trajectory.tum";
+constexpr const char* kCurveFile = "coverage.csv";
+
+/// "missions/TASK/FILE".
+std::string member_name(const std::string& task, const std::string& file);
+
+/// Requires missions of the tasks in their order.
+TrackFigures track_figures(const Suite& suite, const std::vector<SubmittedMission>& missions);
+
+/// Fills in the hashes of the records and writes the zip.
+void write_submission(Submission submission, const std::filesystem::path& zip);
+
+/// Throws BadInput as read_zip(), and naming file and key or member for a submission.json that is
+/// not as write_submission() writes it, edited, or of another type somewhere; for members that it
+/// does not name, that are missing or that have another hash.
+Submission read_submission(const std::filesystem::path& zip);
+
+/// Throws BadInput when it is of another suite or track, or lacks a task.
+void need_of_suite(const Submission& submission, const Suite& suite);
+
+}  // namespace gnbv

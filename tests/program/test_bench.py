@@ -1,0 +1,445 @@
+"""`gnbv bench`: entries flown, submitted, verified by flying them again, edited and refused."""
+
+import hashlib
+import json
+import pathlib
+import re
+import shutil
+import stat
+import zipfile
+
+import pytest
+from program import REPOSITORY, Gnbv
+
+TINY = REPOSITORY / "examples/bench/tiny.yaml"
+WORDS = ("description", "licence", "machine", "name", "program", "program_sha256")  # of no flight
+PLANNER = """import json, math, sys
+told = json.loads(sys.stdin.readline())
+x, y, z = told['position_m']
+room = told['task']['workspace_m']
+assert room['min'][0] < x < room['max'][0] and told['task']['cameras'][0]['fx_px'] > 0
+print('x,y,z,yaw_deg', flush=True)
+bearing = math.degrees(math.atan2(y, x))
+while told['left']['metres'] > 3 and told['left']['views'] > 0:
+    bearing += 40
+    a = math.radians(bearing)
+    print(3.2 * math.cos(a), 3.2 * math.sin(a), 1.8, bearing - 180, sep=',', flush=True)
+    told = json.loads(sys.stdin.readline())
+    while told['event'] == 'refused':
+        sys.exit('refused')
+"""
+FUNCTION = """import math
+def around(belief, history):
+    n = len(history)
+    if n > 3:
+        return None
+    a = math.radians(40 * n - 90)
+    return View(3.2 * math.cos(a), 3.2 * math.sin(a), 1.8, a + math.pi)
+"""
+
+
+@pytest.fixture(scope="module")
+def made(request, tmp_path_factory):
+    """A folder with tiny.yaml and an entry of `nearest_frontier`: the folder n, n.zip."""
+    folder = tmp_path_factory.mktemp("bench")
+    gnbv = Gnbv(request.config.option.gnbv, folder)
+    shutil.copy(TINY, folder / "tiny.yaml")
+    run = "bench run --suite tiny.yaml --track tiny --planner nearest_frontier -o n --quiet"
+    gnbv(*run.split(), "--jobs", "2", "--threads", "1").check({0})
+    gnbv("bench", "submit", "n", "-o", "n.zip", "--description", "a baseline").check({0})
+    return folder
+
+
+@pytest.fixture
+def bench(gnbv, made, tmp_path):
+    """bench(words, *says, code=0) -> the end of `gnbv bench WORDS` beside what is made."""
+    shutil.copytree(made, tmp_path, dirs_exist_ok=True)
+
+    def call(words, *says, code=0):
+        end = gnbv("bench", *words.split()).check({code})
+        for say in says:
+            assert say in end.out + end.err, end.out + end.err
+        return end
+
+    return call
+
+
+def members_of(path):
+    with zipfile.ZipFile(path) as file:
+        return {name: file.read(name) for name in file.namelist()}
+
+
+def write(path, members):
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, content in members.items():
+            file.writestr(name, content)
+
+
+def sealed(told):
+    """The text of submission.json, its own hash made anew."""
+    told.pop("sha256", None)
+    compact = json.dumps(told, separators=(",", ":"), ensure_ascii=False)
+    told["sha256"] = hashlib.sha256(compact.encode()).hexdigest()
+    return json.dumps(told, indent=1, ensure_ascii=False) + "\n"
+
+
+def resealed(members, told):
+    """As somebody writes it who knows the format: all hashes fit."""
+    for mission in told["missions"]:
+        for name in mission["files"]:
+            content = members.get(f"missions/{mission['task']}/{name}", b"")
+            mission["files"][name] = hashlib.sha256(content).hexdigest()
+    return {**members, "submission.json": sealed(told).encode()}
+
+
+def told_by(members):
+    return json.loads(members["submission.json"])
+
+
+def test_a_submission_is_what_it_says(bench, tmp_path):
+    bench("verify n.zip --suite tiny.yaml --quiet --jobs 2", "verified: 2 missions flown again")
+    table = bench("table n.zip --suite tiny.yaml --format csv").out.splitlines()
+    told = told_by(members_of(tmp_path / "n.zip"))
+    assert str(told["figures"]["score"]) in table[1]
+    shares = [mission["share"] for mission in told["missions"]]
+    assert told["figures"]["score"] == pytest.approx(sum(shares) / 2)
+    # the reseal of these tests is the program's own
+    assert sealed(dict(told)).encode() == members_of(tmp_path / "n.zip")["submission.json"]
+
+
+def edited(value):
+    if isinstance(value, bool) or value is None:
+        return 0.5
+    if isinstance(value, str):
+        return value[:-1] + ("0" if value[-1:] != "0" else "1")
+    if isinstance(value, list):
+        return [*value, "planner.utility.name=random"]
+    return value + 1
+
+
+def places(told):
+    yield from ((told, key) for key in told if key not in ("figures", "missions", "sha256"))
+    yield from ((told["figures"], key) for key in told["figures"])
+    for mission in told["missions"]:
+        yield from ((mission, key) for key in mission if key != "files")
+
+
+def test_an_edited_field_is_refused_and_resealed_it_is_found(bench, tmp_path):
+    members = members_of(tmp_path / "n.zip")
+    for where, key in places(told := told_by(members)):
+        before, where[key] = where[key], edited(where[key])
+        text = json.dumps(told, indent=1, ensure_ascii=False) + "\n"
+        write(tmp_path / "e.zip", {**members, "submission.json": text})
+        bench("verify e.zip --suite tiny.yaml", "e.zip", code=2)
+        where[key] = before
+    # whoever makes the hashes fit is refused for what the suite says, or found by flying again
+    told, flown, numbers = told_by(members), told_by(members), []
+    for (where, key), (other, _) in zip(places(told), places(flown), strict=True):
+        if where is told and key in WORDS:
+            continue
+        if where is told or key == "task":
+            before, where[key] = where[key], edited(where[key])
+            write(tmp_path / "e.zip", resealed(members, told))
+            bench("verify e.zip --suite tiny.yaml --quiet", code=1 if key == "settings" else 2)
+            where[key] = before
+        else:
+            other[key] = edited(other[key])
+            numbers.append(key)
+    write(tmp_path / "e.zip", resealed(members, flown))
+    said = bench("verify e.zip --suite tiny.yaml --quiet --jobs 2", code=1).out
+    for key in numbers:
+        assert len(re.findall(rf"\b{key}\b", said)) >= numbers.count(key), (key, said)
+
+
+@pytest.mark.parametrize("name", ["iterations.csv", "trajectory.tum", "coverage.csv"])
+def test_an_edited_record_is_refused_and_resealed_it_is_found(bench, tmp_path, name):
+    members = members_of(tmp_path / "n.zip")
+    member = f"missions/smoke/{name}"
+    lines = members[member].decode().splitlines()
+    cells = re.split("([, ])", lines[-1])
+    cells[2 if name != "coverage.csv" else -5] = "1.25"
+    members[member] = "\n".join([*lines[:-1], "".join(cells), ""]).encode()
+    write(tmp_path / "e.zip", members)
+    bench("verify e.zip --suite tiny.yaml", f"'{member}': is damaged or edited", code=2)
+    write(tmp_path / "e.zip", resealed(members, told_by(members)))
+    bench("verify e.zip --suite tiny.yaml --quiet", "smoke: ", code=1)
+
+
+def with_member(name, content=b"x", **attributes):
+    def change(path, members):
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+            for other, text in members.items():
+                file.writestr(other, text)
+            info = zipfile.ZipInfo(name)
+            info.compress_type = zipfile.ZIP_DEFLATED
+            for key, value in attributes.items():
+                setattr(info, key, value)
+            file.writestr(info, content)
+
+    return change
+
+
+def with_json(change):
+    def hostile(path, members):
+        told = told_by(members)
+        change(told)
+        write(path, {**members, "submission.json": sealed(told)})
+
+    return hostile
+
+
+def with_bytes(change):
+    def hostile(path, members):
+        write(path, members)
+        path.write_bytes(change(path.read_bytes()))
+
+    return hostile
+
+
+HOSTILE = {
+    "absolute": (with_member("/etc/cron.d/x"), "is an absolute path"),
+    "parent": (with_member("missions/../../x"), "leads out of its folder"),
+    "backslash": (with_member("missions\\x"), "is no plain path"),
+    "control": (with_member("missions/a\x1b[2J"), "other characters than ASCII"),
+    "folder": (with_member("missions/", b""), "is a folder"),
+    "link": (
+        with_member(
+            "missions/l",
+            b"/etc/passwd",
+            create_system=3,
+            external_attr=(stat.S_IFLNK | 0o777) << 16,
+        ),
+        "is a link",
+    ),
+    "twice": (with_member("missions/smoke/coverage.csv"), ""),
+    "ratio": (with_member("missions/bomb", bytes(1 << 24)), "bomb"),
+    "large": (with_member("missions/large", bytes((64 << 20) + 1)), "larger than any"),
+    "unknown": (with_member("missions/smoke/run.sh"), "belongs to no submission"),
+    "python": (with_member("utility.py"), "belongs to no submission"),
+    "method": (with_member("missions/b", b"b" * 9, compress_type=zipfile.ZIP_BZIP2), "deflate"),
+    "text for a number": (
+        with_json(lambda t: t["missions"][0].update(share="1")),
+        "missions.0: share: expects a number",
+    ),
+    "number for a text": (with_json(lambda t: t.update(name=1)), "name: expects a text"),
+    "list for an object": (with_json(lambda t: t.update(figures=[])), "figures: expects an object"),
+    "null": (with_json(lambda t: t.update(missions=None)), "missions: expects a list"),
+    "missing key": (with_json(lambda t: t.pop("track")), "track: is missing"),
+    "more keys": (with_json(lambda t: t.update(more=1)), "not as `gnbv bench submit` writes it"),
+    "code": (
+        with_json(
+            lambda t: t["settings"].append(
+                "planner.utility={name: python, "
+                'python: {source: "def f(s): return s", function: f}}'
+            )
+        ),
+        "of the user",
+    ),
+    "sensor": (
+        with_json(lambda t: t["settings"].append("cameras.0.range_max_m=50")),
+        "may not set cameras.0.range_max_m",
+    ),
+    "path as a task": (with_json(lambda t: t["missions"][0].update(task="../../x")), ""),
+    "cut": (with_bytes(lambda b: b[: len(b) // 2]), "is no zip archive"),
+    "flipped": (with_bytes(lambda b: b[:300] + bytes([b[300] ^ 0xFF]) + b[301:]), ""),
+    "no zip": (with_bytes(lambda b: b"hello"), "is no zip archive"),
+}
+
+
+@pytest.mark.parametrize("attack", HOSTILE)
+def test_a_hostile_zip_is_refused_by_name(bench, tmp_path, attack):
+    change, says = HOSTILE[attack]
+    members = members_of(tmp_path / "n.zip")
+    change(tmp_path / "h.zip", members)
+    before = sorted(tmp_path.iterdir())
+    bench("verify h.zip --suite tiny.yaml --quiet -o out", "h.zip", says, code=2)
+    assert [
+        path for path in sorted(tmp_path.iterdir()) if path not in before and path.name != "out"
+    ] == []
+    assert not list(tmp_path.glob("out/cells/*/summary.json"))
+
+
+def test_resumed_is_as_uninterrupted(bench, tmp_path):
+    run = "run --suite tiny.yaml --track tiny --planner nearest_frontier -o r --quiet"
+    bench(f"{run} --task smoke-east")
+    bench("submit r -o r.zip", "not flown by this program: smoke", code=2)
+    bench(run, "--resume goes on", code=2)
+    bench(f"{run} --resume")
+    bench("submit r -o r.zip --description x")
+    one, two = (members_of(tmp_path / name) for name in ("n.zip", "r.zip"))
+    for name in one:
+        if name.endswith((".tum", "coverage.csv")):
+            assert one[name] == two[name]
+    told = [told_by(members) for members in (one, two)]
+    for key in ("score", "coverage", "to_90"):
+        assert told[0]["figures"][key] == told[1]["figures"][key]
+    bench(f"{run} --resume --set planner.agvs.step_m=0.6", "of another planner", code=2)
+
+
+@pytest.mark.parametrize("planner", ["command", "function"])
+def test_a_planner_of_others_is_flown_again_without_it(bench, gnbv, tmp_path, planner):
+    if planner == "function":
+        pytest.importorskip("numpy")  # which gnbv hands to it
+    (tmp_path / "planner.py").write_text(PLANNER if planner == "command" else FUNCTION)
+    word = "python3 planner.py" if planner == "command" else "planner.py:around"
+    gnbv(
+        "bench",
+        "run",
+        "--suite",
+        "tiny.yaml",
+        "--track",
+        "tiny",
+        "--planner",
+        word,
+        "--name",
+        "ours",
+        "-o",
+        "f",
+        "--quiet",
+    ).check({0})
+    bench("submit f -o f.zip")
+    (tmp_path / "planner.py").unlink()
+    members = members_of(tmp_path / "f.zip")
+    told = told_by(members)
+    assert (told["kind"], told["settings"], told["name"]) == ("views", [], "ours")
+    assert all(mission["views"] > 2 for mission in told["missions"])
+    bench("verify f.zip --suite tiny.yaml --quiet", "verified")
+    lines = members["missions/smoke/views.csv"].decode().splitlines()
+    cells = lines[2].split(",")
+    cells[3] = "2.4"  # z of the second view that it gave
+    members["missions/smoke/views.csv"] = "\n".join(
+        [*lines[:2], ",".join(cells), *lines[3:], ""]
+    ).encode()
+    write(tmp_path / "e.zip", resealed(members, told))
+    bench("verify e.zip --suite tiny.yaml --quiet", "smoke: ", code=1)
+    table = bench("table n.zip f.zip --suite tiny.yaml").out
+    assert "too few structures" in table
+
+
+ROS = """import math, struct, sys, types
+# a planner at the other side of the topics: each answer is followed by the next view
+told, callbacks = {}, {}
+def filled(**fields):
+    return types.SimpleNamespace(**fields)
+def header():
+    return filled(stamp=filled(sec=0, nanosec=0), frame_id='')
+def pose():
+    return filled(header=header(), pose=filled(position=filled(x=0., y=0., z=0.),
+                                               orientation=filled(x=0., y=0., z=0., w=1.)))
+class Node:
+    count = 0
+    def create_subscription(self, kind, topic, callback, depth):
+        callbacks[topic] = callback
+    def create_publisher(self, kind, topic, depth):
+        return filled(publish=lambda message: told.update({topic: message}))
+def spin_once(node, timeout_sec):
+    image = told['~/camera/rgbd/depth']
+    depths = struct.unpack(f'<{image.width * image.height}f', image.data)
+    assert any(0.3 < depth < 5 for depth in depths), 'nothing in sight'
+    assert told['~/camera/rgbd/info'].k[0] > 0
+    node.count += 1
+    if node.count > 3:
+        return callbacks['~/end'](None)
+    a = math.atan2(told['~/pose'].pose.position.y, told['~/pose'].pose.position.x) + 0.7
+    view = pose()
+    view.pose.position = filled(x=3.2 * math.cos(a), y=3.2 * math.sin(a), z=1.8)
+    view.pose.orientation = filled(x=0., y=0., z=math.sin((a + math.pi) / 2),
+                                   w=math.cos((a + math.pi) / 2))
+    callbacks['~/next_view'](view)
+def module(name, **members):
+    sys.modules[name] = made = types.ModuleType(name)
+    made.__dict__.update(members)
+module('rclpy', init=lambda: None, shutdown=lambda: None, ok=lambda: True, spin_once=spin_once,
+       create_node=lambda name: Node())
+module('geometry_msgs'); module('sensor_msgs'); module('std_msgs')
+module('geometry_msgs.msg', PoseStamped=pose)
+module('sensor_msgs.msg', Image=lambda: filled(header=header()),
+       CameraInfo=lambda: filled(header=header()))
+module('std_msgs.msg', Empty=lambda: filled(), String=lambda: filled(data=''))
+"""
+
+
+def test_the_bridge_to_ros_flies_what_comes_by_its_topics(gnbv, tmp_path):
+    pytest.importorskip("numpy")
+    bridge = REPOSITORY / "examples/ros_bridge.py"
+    (tmp_path / "bridge.py").write_text(f"{ROS}\nexec(open({str(bridge)!r}).read())\n")
+    shared = set(pathlib.Path("/dev/shm").glob("gnbv-*"))
+    gnbv(
+        "run",
+        "smoke",
+        "--utility",
+        "route",
+        "--views",
+        "|python3 bridge.py",
+        "--out",
+        "r",
+        "--quiet",
+    ).check({0})
+    rows = (tmp_path / "r/views.csv").read_text().splitlines()
+    assert [row.split(",")[6] for row in rows[1:]] == ["flown"] * 3
+    assert set(pathlib.Path("/dev/shm").glob("gnbv-*")) <= shared
+
+
+def test_a_planner_that_fails_has_no_mission(bench, gnbv, tmp_path):
+    gnbv(
+        "bench",
+        "run",
+        "--suite",
+        "tiny.yaml",
+        "--track",
+        "tiny",
+        "--planner",
+        "false no",
+        "-o",
+        "f",
+        "--quiet",
+    ).check({1}, names=["the planner `false no` ended before the mission"])
+    bench("submit f -o f.zip", "not flown", code=2)
+
+
+def test_what_a_planner_may_not_set_is_named(bench, tmp_path):
+    run = "run --suite tiny.yaml --track tiny -o x --planner"
+    bench(f"{run} tour --set cameras.0.range_max_m=9", "may not set cameras.0.range_max_m", code=2)
+    bench(f"{run} tuor", "did you mean 'tour'", code=2)
+    bench(f"{run} tour --task hall", "no such task", code=2)
+    bench("run --suite tiny.yaml --track tniy -o x --planner tour", "did you mean 'tiny'", code=2)
+    (tmp_path / "u.py").write_text('def u(stats):\n    return stats["path_m"]\n')
+    bench(f"{run} u.py", "is a utility", code=2)
+    assert not (tmp_path / "x").exists()
+
+
+def test_freezing_finds_the_same_numbers_again(bench, tmp_path):
+    frozen = (tmp_path / "tiny.yaml").read_text()
+    loose = re.sub(r", ceiling: [^}]*", "", frozen)
+    (tmp_path / "loose.yaml").write_text(loose)
+    bench(
+        "run --suite loose.yaml --track takeoff --planner random -o l --quiet",
+        "not frozen yet: no score",
+    )
+    bench("submit l -o l.zip", "not frozen yet, so that nothing can be submitted: smoke", code=2)
+    bench("freeze loose.yaml --track takeoff --planners random,tour -o z --quiet")
+    line = next(line for line in frozen.splitlines() if "track: takeoff, " in line)
+    assert line in (tmp_path / "loose.yaml").read_text()
+    bench("table n.zip --suite loose.yaml", "is of another suite", code=2)
+
+
+def test_the_page_holds_the_standings_and_every_mission(bench, tmp_path):
+    end = bench("page n.zip --suite tiny.yaml -o site --quiet --jobs 2")
+    assert end.out == "site/index.html\n"
+    html = (tmp_path / "site/index.html").read_text()
+    data = json.loads(re.search(r'id="standings">(.*?)</script>', html, re.S)[1])
+    entry = data["tracks"][0]["entries"][0]
+    assert (entry["name"], entry["description"]) == ("nearest_frontier", "a baseline")
+    for mission in entry["missions"]:
+        if mission["link"]:
+            assert (tmp_path / "site" / mission["link"]).stat().st_size > 10000
+
+
+def test_held_out_seeds_follow_from_the_commit():
+    text = (REPOSITORY / "suite/v1.yaml").read_text()
+    commit = re.search(r'drawn_from: "(\w+)"', text)[1]
+    held_out = re.findall(r"set: held_out, .*random: (\w+), seed: (\d+), draw: (\d+)", text)
+    assert len(held_out) == 16
+    for kind, seed, draw in held_out:
+        digits = hashlib.sha256(f"{commit} {kind} {draw}".encode()).hexdigest()[:8]
+        assert int(seed) == int(digits, 16)

@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
+#include "tools/mission/resolve.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
+#include "tools/run/user_views.hpp"
+#include "tools/suite/suite_work.hpp"
+#include "tools/terminal/say.hpp"
+
+namespace gnbv {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The planner of a submission; of somebody else's the views that it gave in the task. Nothing of
+/// it is code, and no file but those of the suite is read.
+EntryPlanner planner_of(const Submission& submission, const fs::path& records) {
+  EntryPlanner planner{.name = submission.name};
+  if (submission.kind == EntryKind::views) {
+    planner.settings = {{fmt::format("planner.utility.name={}", kRouteName)},
+                        views_of_file((records / kGivenFile).string())};
+    return planner;
+  }
+  for (const std::string& setting : submission.settings) {
+    planner.settings.push_back({setting, "settings: " + setting});
+  }
+  return planner;
+}
+
+/// Runs no function of the user's, and reads no file that a setting names.
+void need_no_code(const Submission& submission, const Scenario& scenario) {
+  if (user_function(scenario.planner.utility) == nullptr &&
+      scenario.planner.profiling.file.empty()) {
+    return;
+  }
+  throw BadInput(fmt::format("{}: settings: name a function or a file of the user's own",
+                             submission.file.string()));
+}
+
+/// The mission of a task as it is flown again; its records lie beside it. Of a planner of the
+/// program's nothing of the record is taken up: it has to come to the same views by itself.
+Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& task,
+             const fs::path& folder, TaskScenarios& scenarios) {
+  const fs::path records = folder / "records" / task.structure;
+  make_folder(records);
+  for (const char* const file : {kRecordFile, kGivenFile, kPathFile, kCurveFile}) {
+    const auto found = submission.records.find(member_name(task.structure, file));
+    if (found != submission.records.end()) write_file_atomically(records / file, found->second);
+  }
+  Cell cell = cells_of_entry(suite, {task}, planner_of(submission, records), scenarios).front();
+  need_no_code(submission, cell.resolved);
+  return cell;
+}
+
+/// Names what of the figures is another.
+struct FlownAgain {
+  std::string of;
+  std::vector<std::string>& differences;
+
+  template <typename Value>
+  void operator()(const char* what, const Value& now, const Value& said) const {
+    if (now == said) return;
+    differences.push_back(fmt::format("{}: {} is {} when flown again, the file says {}", of, what,
+                                      text(now), text(said)));
+  }
+  static std::string text(const auto& value) { return fmt::format("{}", value); }
+  static std::string text(const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "not reached";
+  }
+};
+
+void compare_figures(const TaskFigures& now, const TaskFigures& said, const FlownAgain& compare) {
+  compare("termination", now.termination, said.termination);
+  compare("views", now.views, said.views);
+  compare("spent", now.spent, said.spent);
+  compare("integral", now.integral, said.integral);
+  compare("share", now.share, said.share);
+  compare("coverage", now.coverage, said.coverage);
+  compare("to_90", now.to_90, said.to_90);
+  compare("to_95", now.to_95, said.to_95);
+  compare("result_sha256", now.result_sha256, said.result_sha256);
+}
+
+void compare_tracks(const TrackFigures& now, const TrackFigures& said, const FlownAgain& compare) {
+  compare("score", now.score.mean, said.score.mean);
+  compare("score_low", now.score.low, said.score.low);
+  compare("score_high", now.score.high, said.score.high);
+  compare("public_score", now.public_score, said.public_score);
+  compare("held_out_score", now.held_out_score, said.held_out_score);
+  compare("coverage", now.coverage.mean, said.coverage.mean);
+  compare("coverage_low", now.coverage.low, said.coverage.low);
+  compare("coverage_high", now.coverage.high, said.coverage.high);
+  compare("to_90", now.to_90, said.to_90);
+  compare("to_95", now.to_95, said.to_95);
+  compare("plan_s, a mean of what is stated,", now.plan_s, said.plan_s);
+}
+
+/// Views and files as they were and as they are.
+void compare_records(const fs::path& run, const Submission& submission, const std::string& task,
+                     const FlownAgain& compare, const fs::path& records) {
+  const auto now = read_view_records(run / kIterationsFile);
+  const auto said = read_view_records(records / kRecordFile);
+  if (now.size() != said.size()) compare("views on record", now.size(), said.size());
+  for (std::size_t i = 0; i < std::min(now.size(), said.size()); ++i) {
+    if (const auto difference = first_difference(now[i], said[i])) {
+      compare(fmt::format("view {}: {}", i, difference->column).c_str(), difference->now,
+              difference->recorded);
+      break;
+    }
+  }
+  for (const auto& [file, text] : mission_records(run, submission.kind)) {
+    if (file == kRecordFile || text == submission.records.at(member_name(task, file))) continue;
+    compare.differences.push_back(
+        fmt::format("{}: {} is another when flown again", compare.of, file));
+  }
+}
+
+std::vector<std::string> verify(const Submission& submission, const Suite& suite,
+                                const fs::path& folder, const SuiteFlights& flights,
+                                std::vector<fs::path>* runs) {
+  need_of_suite(submission, suite);
+  const SuiteTrack& track = suite.track(submission.track);
+  const std::vector<SuiteTask> tasks = suite.tasks_of(track.name);
+  TaskScenarios scenarios(suite, folder / "meshes");
+  std::vector<Cell> cells;
+  for (const SuiteTask& task : tasks) {
+    if (!task.is_frozen()) {
+      throw BadInput(fmt::format("{}, {}: not frozen yet", task.track, task.structure));
+    }
+    cells.push_back(prepare(submission, suite, task, folder, scenarios));
+  }
+  const std::vector<CellOutcome> outcomes = run_cells(
+      cells,
+      {.folder = folder, .jobs = flights.jobs, .threads = flights.threads, .quiet = flights.quiet});
+  std::vector<std::string> differences;
+  std::vector<SubmittedMission> again;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const std::string& task = tasks[i].structure;
+    const SubmittedMission& said = submission.missions[i];
+    const FlownAgain compare{task, differences};
+    if (outcomes[i].status == CellStatus::missing) throw CommandFailed("interrupted");
+    if (outcomes[i].status != CellStatus::done) {
+      differences.push_back(fmt::format("{}: {}", task, outcomes[i].failure));
+      continue;
+    }
+    const fs::path& run = outcomes[i].run;
+    if (runs != nullptr) runs->push_back(run);
+    SubmittedMission now = mission_of_run(run, tasks[i], track, submission.kind);
+    now.figures.plan_s = planning_s(folder / "records" / task);  // as stated
+    compare("plan_s", now.figures.plan_s, said.figures.plan_s);
+    compare_figures(now.figures, said.figures, compare);
+    compare("trajectory_sha256", now.trajectory_sha256, said.trajectory_sha256);
+    compare_records(run, submission, task, compare, folder / "records" / task);
+    again.push_back(std::move(now));
+  }
+  if (again.size() == tasks.size()) {
+    compare_tracks(track_figures(suite, again), submission.figures,
+                   {"track " + track.name, differences});
+  }
+  return differences;
+}
+
+}  // namespace
+
+std::vector<std::string> verify_submission(const Submission& submission, const Suite& suite,
+                                           const fs::path& folder, const SuiteFlights& flights,
+                                           std::vector<fs::path>* runs) {
+  try {
+    return verify(submission, suite, folder, flights, runs);
+  } catch (const BadInput& error) {  // of what it holds, which lies in other files meanwhile
+    const std::string file = submission.file.string(), what = error.what();
+    throw BadInput(what.starts_with(file) ? what : fmt::format("{}: {}", file, what));
+  }
+}
+
+}  // namespace gnbv
