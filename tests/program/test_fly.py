@@ -74,6 +74,29 @@ def test_ends_after_its_duration_with_a_summary(run):
         'can be reached from other machines')
 
 
+def test_stands_on_terrain_where_there_is_any(run, tmp_path):
+    def terrain(name, half_m):
+        corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+        (tmp_path / name).write_text(
+            ''.join(f'v {half_m * x} {half_m * y} {1 + 0.05 * half_m * x}\n' for x, y in corners)
+            + 'f 1 2 3 4\n')
+    terrain('hill.obj', 40)
+    terrain('patch.obj', 1)
+    run(f'fly {PORT} --set terrain.path=hill.obj --set start.position_m=[0,-2.8,3.5] --speed 20 --duration 1', 'end: duration')
+    run(f'fly {PORT} --set terrain.path=patch.obj --set start.position_m=[0,-2.8,3.5] --duration 1', 'there is no terrain below x',
+        code=2)
+    run(f'fly {PORT} --set structure.ground=false --duration 1', 'structure.ground', code=2)
+
+
+def test_is_hit_by_what_moves_when_it_comes(gnbv):
+    cube = ('obstacles=[{box_m: {min: [-3, -3.3, 0], max: [-2, -2.3, 1]}, '
+            'motion: {waypoints: [{offset_m: [6, 0, 0]}], speed_m_s: 1}}]')
+    end = gnbv('fly', *PORT.split(), '--set', cube, '--set', 'start.jitter_m=[0, 0, 0]',
+               '--speed', 20, '--duration', 5).check({1}, ['the vehicle hit'])
+    hull_m = 0.384  # of the Iris; the face is at x = t - 2
+    assert abs(float(re.search(r'after ([\d.]+) s', end.err)[1]) - (2 - hull_m)) < 0.05
+
+
 def test_speaks_first_to_where_its_client_waits(run, client):
     url = f'udpout://127.0.0.1:{client.getsockname()[1]}'
     end = run(f'fly smoke --speed 5 --duration 5 --mavlink {url}')

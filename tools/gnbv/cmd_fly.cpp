@@ -100,26 +100,29 @@ void need_ground_and_rotors(const Scenario& scenario) {
   if (scenario.vehicle.kind != VehicleKind::quadrotor) {
     throw BadInput("vehicle.kind: `gnbv fly` flies the quadrotor; set it to quadrotor");
   }
-  if (!scenario.structure.ground) {
+  if (!scenario.structure.ground && scenario.terrain.path.empty()) {
     throw BadInput("structure.ground: `gnbv fly` starts on the ground; set it to true");
-  }
-  if (!scenario.terrain.path.empty()) {
-    throw BadInput("terrain.path: `gnbv fly` starts on the plane ground; set it to \"\"");
   }
 }
 
 /// Where a mission of this scenario would begin, for a vehicle that stands on the ground below.
-ViewPose ground_start(const Scenario& scenario, const RayScene& scene) {
+ViewPose ground_start(const Scenario& scenario, const World& world, const RayScene& scene) {
   const ViewPose start = start_pose(scenario, scene);
   const AirframeParameters& airframe = scenario.vehicle.airframe;
   const double half_height_m = 0.5 * airframe.hull_height_m;
   const double clearance_m = std::hypot(airframe.hull_radius_m, half_height_m);
-  const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), half_height_m);
-  if (scene.clearance_m(on_ground_world_m, clearance_m) >= clearance_m) return start;
+  const double ground_m = ground_height_m(world, start.p_world_m);
+  if (std::isinf(ground_m)) {
+    throw BadInput(fmt::format("start.position_m: there is no terrain below x {:.2f} y {:.2f} m",
+                               start.p_world_m.x(), start.p_world_m.y()));
+  }
+  const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), ground_m + half_height_m);
+  constexpr unsigned kStands = kStructurePart | kObstaclePart;
+  if (scene.distance_m(kStands, on_ground_world_m, clearance_m) >= clearance_m) return start;
   throw BadInput(
       fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
                   "start, is within "
-                  "{:.2f} m of the structure, which its hull takes: move the start away from it",
+                  "{:.2f} m of what stands there, which its hull takes: move the start away from it",
                   start.p_world_m.x(), start.p_world_m.y(), clearance_m));
 }
 
@@ -157,7 +160,7 @@ void fly(const FlyOptions& options) {
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
-  const ViewPose start = ground_start(scenario, RayScene(world));
+  const ViewPose start = ground_start(scenario, world, RayScene(world));
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
                     scenario.wind);
   mavlink::Aboard aboard{.system_id = static_cast<std::uint8_t>(scenario.vehicle.system_id),
