@@ -53,6 +53,7 @@ struct CornerLook {
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   Vec2f uv = {kNone, kNone};    // in its material's picture: (0, 0) upper left, (1, 1) lower right
   Rgb8 tint = {255, 255, 255};  // sRGB; times the material's colour
+  std::uint8_t unused = 0;      // so that equal ones have equal bytes
 };
 using FaceLooks = std::vector<std::array<CornerLook, 3>>;
 
