@@ -116,7 +116,7 @@ def test_finds_the_poses_of_the_frames_within_a_centimetre(tmp_path):
         for z_m in (1.3, 2.2):
             for bearing in range(0, 360, 15):
                 angle = math.radians(bearing - 90)
-                file.write(f"{3 * math.cos(angle)},{3 * math.sin(angle)},{z_m},{bearing + 90}\n")
+                file.write(f"{3 * math.cos(angle)},{3 * math.sin(angle)},{z_m},{(bearing + 90) % 360}\n")
     run = tmp_path / "run"
     flown = gnbv("run", "smoke", "--mesh", mesh, "--utility", "route", "--views",
                  tmp_path / "views.csv", "--quiet", "--frames", "--out", run,

@@ -146,9 +146,9 @@ TEST_F(PictureFile, ObjOptionsScaleMoveAndClamp) {
   write("m.mtl", "newmtl m\nKd 0.5 1 1\nmap_Kd -s 2 2 -o 0.5 four.png\n");
   const TriangleMesh moved = read("a.obj", kObj).mesh;
   // (u, v) becomes (2 u + 0.5, 2 v): u = 0.125 is the second column, and the picture is there twice
-  EXPECT_EQ(colour(moved, 0.125, 0.125), kWhite);
-  EXPECT_EQ(colour(moved, 0.125, 0.625), kWhite);
-  EXPECT_EQ(colour(moved, 0.375, 0.375), (Rgb8{188, 0, 0}));  // times Kd, in linear light
+  EXPECT_EQ(colour(moved, 0.125, 0.125), (Rgb8{188, 255, 255}));  // times Kd, in linear light
+  EXPECT_EQ(colour(moved, 0.125, 0.625), (Rgb8{188, 255, 255}));
+  EXPECT_EQ(colour(moved, 0.375, 0.375), (Rgb8{188, 0, 0}));
   write("m.mtl", "newmtl m\nmap_Kd -clamp on -o -0.5 -0.5 four.png\n");
   const TriangleMesh clamped = read("a.obj", kObj).mesh;
   EXPECT_EQ(colour(clamped, 0.25, 0.25), kBlue);
@@ -189,7 +189,7 @@ struct GltfSquare {
   std::string attributes, material, root, bytes, accessors, views;
 
   GltfSquare() {
-    for (const float x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})
+    for (const int x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})
       append_bytes(bytes, static_cast<float>(x));
     bytes += std::string("\0\1\2\0\2\3", 6);
     bytes.resize(56);
@@ -350,7 +350,7 @@ const std::string kDae = R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLA
 <technique_common><accessor source="#pa" count="4" stride="3"/></technique_common></source>
 <source id="t"><float_array id="ta" count="8">0 0 1 0 1 1 0 1</float_array>
 <technique_common><accessor source="#ta" count="4" stride="2"/></technique_common></source>
-<source id="w"><float_array id="wa" count="8">.2 .2 .2 .2 .2 .2 .2 .2</float_array>
+<source id="w"><float_array id="wa" count="8">.25 .25 .25 .25 .25 .25 .25 .25</float_array>
 <technique_common><accessor source="#wa" count="4" stride="2"/></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
 <polylist material="s" count="1"><input semantic="VERTEX" source="#v" offset="0"/>

@@ -151,8 +151,8 @@ TEST_F(SweepFile, TheIdIsThatOfWhatAMeshRefersToAsWell) {
   for (const std::string colour : {"1 1 1", "1 0 0"}) {
     write("m.mtl", "newmtl a\nKd " + colour + "\nmap_Kd p.png\n");
     ids.insert(id("m.obj"));
-    for (const std::uint8_t red : {10, 20}) {
-      save(red);
+    for (const int red : {10, 20}) {
+      save(static_cast<std::uint8_t>(red));
       ids.insert(id("m.obj"));
     }
   }
