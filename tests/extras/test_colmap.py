@@ -141,7 +141,7 @@ def test_finds_the_poses_of_the_frames_within_a_centimetre(tmp_path):
     colmap("feature_extractor", database_path=database, image_path=folder / "images",
            ImageReader__single_camera=1, ImageReader__camera_model="PINHOLE",
            ImageReader__camera_params=",".join(map(str, camera)), SiftExtraction__use_gpu=0,
-           SiftExtraction__max_num_features=1024)
+           SiftExtraction__max_num_features=2048)
     colmap("exhaustive_matcher", database_path=database, SiftMatching__use_gpu=0)
     colmap("mapper", database_path=database, image_path=folder / "images", output_path=sparse,
            Mapper__ba_refine_focal_length=0, Mapper__ba_refine_extra_params=0)
