@@ -491,6 +491,22 @@ TEST_F(PictureFile, LooksFollowTheirFaces) {
   EXPECT_EQ(bytes_of(textures_of(both)), 12U);
 }
 
+TEST_F(PictureFile, AModelsMeshesBringTheirs) {
+  // as Gazebo's folders have it: meshes here, materials/textures there; mirrored, and moved by 3 m
+  std::filesystem::create_directories(folder_ / "meshes");
+  std::filesystem::create_directories(folder_ / "materials/textures");
+  std::filesystem::rename(folder_ / "four.png", folder_ / "materials/textures/four.png");
+  write("meshes/a.dae", replaced(kDae, "four.png", "file:///home/them/four.png"));
+  write("model.sdf", R"(<sdf version="1.6"><model name="m"><link name="l"><visual name="v">
+<pose>3 0 0 0 0 0</pose><geometry><mesh><uri>model://m/meshes/a.dae</uri><scale>-1 1 1</scale></mesh>
+</geometry></visual></link></model></sdf>)");
+  const MeshReading reading = read_mesh(file(folder_ / "model.sdf"));
+  ASSERT_EQ(reading.warnings, std::vector<std::string>{});
+  EXPECT_EQ(colour(reading.mesh, 2.75, 0.75), kRed);
+  EXPECT_EQ(colour(reading.mesh, 2.25, 0.25), kWhite);
+  EXPECT_EQ(reading.files.size(), 2U);
+}
+
 TEST_F(PictureFile, AMeshIsReadFromItsFilesAllOfThem) {
   write("m.mtl", "newmtl m\nmap_Kd four.png\n");
   const auto names = [](const MeshReading& reading) {
