@@ -19,7 +19,9 @@ DepthFrame capture_depth(const RayScene& scene, const CameraModel& camera, int c
                          const Isometry& T_world_body, const NoiseKey& key, int threads);
 
 /// Colour for every pixel centre, at any distance, in sRGB: materials under a sun with shadows and
-/// a sky. Aligned with a depth frame that has no lateral noise; not anti-aliased.
+/// a sky. Pictures of meshes are interpolated between their pixels (colour_at()), not smoothed
+/// where they are finer than the frame. Aligned with a depth frame that has no lateral noise; not
+/// anti-aliased.
 ColourFrame capture_colour(const RayScene& scene, const CameraModel& camera, int camera_index,
                            const Isometry& T_world_body, int threads);
 /// Unit vector to its sun, in the south-west, 50 degrees high.

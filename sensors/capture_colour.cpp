@@ -100,9 +100,11 @@ struct ColourCapture {
   }
 
   Vec3f colour_of(std::int32_t face, const Surface& surface, std::size_t ray) const {
-    const Material& material = face == kGroundFace ? ground : scene.material(face);
-    const auto [r, g, b] = albedo(material, surface.p_world_m[ray], surface.normal_world[ray]);
-    return lit_colour({r, g, b}, surface.normal_world[ray], surface.is_dark[ray] == 0);
+    const Vec3f& p_world_m = surface.p_world_m[ray];
+    const Vec3f& normal_world = surface.normal_world[ray];
+    const auto [r, g, b] = face == kGroundFace ? albedo(ground, p_world_m, normal_world)
+                                               : scene.albedo(face, p_world_m, normal_world);
+    return lit_colour({r, g, b}, normal_world, surface.is_dark[ray] == 0);
   }
 };
 

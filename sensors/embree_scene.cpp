@@ -49,6 +49,8 @@ void need_indices(const TriangleMesh& mesh) {
   }
   GNBV_CHECK(mesh.face_material.empty() || mesh.face_material.size() == mesh.faces.size(),
              "{} materials of {} faces", mesh.face_material.size(), mesh.faces.size());
+  GNBV_CHECK(mesh.face_looks.empty() || mesh.face_looks.size() == mesh.faces.size(),
+             "looks of {} of {} faces", mesh.face_looks.size(), mesh.faces.size());
   for (const std::uint16_t i : mesh.face_material) {
     GNBV_CHECK(i < mesh.materials.size(), "material {} of {}", i, mesh.materials.size());
   }

@@ -289,6 +289,11 @@ double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_
   return nearest_m;
 }
 
+std::array<float, 3> RayScene::albedo(std::int32_t face, const Vec3f& p_world_m,
+                                      const Vec3f& normal_world) const {
+  return gnbv::albedo(embree_->meshes, static_cast<std::size_t>(face), p_world_m, normal_world);
+}
+
 double RayScene::distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const {
   return embree_->distance_m(parts, p_world_m, limit_m);
 }

@@ -99,6 +99,9 @@ class RayScene {
   Vec3f normal_world(std::int32_t face) const;
   /// Of a mesh's face.
   const Material& material(std::int32_t face) const;
+  /// Linear colour of a mesh's face at a place on it: albedo() of sim/mesh/triangle_mesh.hpp.
+  std::array<float, 3> albedo(std::int32_t face, const Vec3f& p_world_m,
+                              const Vec3f& normal_world) const;
 
   bool has_obstacles() const;  // that stand, or move
   bool has_terrain() const;

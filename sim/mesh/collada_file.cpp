@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "sim/core/error.hpp"
 #include "sim/core/pose.hpp"
 #include "sim/mesh/collada_shape.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
+#include "sim/mesh/texture_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -38,7 +40,8 @@ DeclaredAxes declared_by(const XmlElement& root) {
 
 class ColladaReader {
  public:
-  explicit ColladaReader(const std::filesystem::path& path) : file_(path, out_.warnings) {}
+  explicit ColladaReader(const std::filesystem::path& path)
+      : file_(path, out_.warnings), textures_(path) {}
 
   MeshScene read() {
     out_.declared = declared_by(file_.root());
@@ -57,6 +60,9 @@ class ColladaReader {
     out_.lose(path, lost_instances_, "instances of what is not in this file");
     out_.lose(path, unread_, "surfaces that are no polygons");
     out_.lose(path, impossible_, "faces of vertices that do not exist");
+    textures_.warn(out_.warnings);
+    out_.warnings.insert(out_.warnings.end(), faults_.begin(), faults_.end());
+    out_.files = textures_.files();
     warn(skins_, "skinned meshes are shown as they were bound, not as their joints stand");
     return std::move(out_);
   }
@@ -157,23 +163,26 @@ class ColladaReader {
       ++lost_instances_;
       return;
     }
-    std::map<std::string, XmlElement> bound;
+    std::map<std::string, XmlElement> bound;  // <instance_material> by symbol
     const XmlElement binding = instance.child("bind_material").child("technique_common");
     for (const XmlElement& material : binding.children("instance_material")) {
-      bound[material.attribute("symbol").value_or("")] = file_.named_by(material, "target");
+      bound[material.attribute("symbol").value_or("")] = material;
     }
     const auto [entry, is_new] = shapes_.try_emplace(geometry.node());
     if (is_new) read_shape(geometry, entry->second);
     for (const auto& [symbol, part] : entry->second) {
       const auto found = bound.find(symbol);
-      out_.instances.push_back(
-          {part, material_of(found != bound.end() ? found->second : XmlElement()), T});
+      const XmlElement binds = found != bound.end() ? found->second : XmlElement();
+      const std::size_t material = material_of(file_.named_by(binds, "target"));
+      out_.instances.push_back({part, material, T, uv_set_of(part, material, binds)});
     }
   }
 
   void read_shape(const XmlElement& geometry,
                   std::vector<std::pair<std::string, std::size_t>>& to) {
-    ColladaShape shape = collada_shape(file_, geometry);
+    const bool wants_uvs = bool(file_.root().child("library_images"));
+    ColladaShape shape = collada_shape(file_, geometry, wants_uvs);
+    faults_.insert(shape.faults.begin(), shape.faults.end());
     impossible_ += shape.impossible_faces;
     unread_ += shape.unread;
     for (ColladaShape::Group& group : shape.groups) {
@@ -201,7 +210,23 @@ class ColladaReader {
     return entry->second;
   }
 
-  Material material(const XmlElement& element) const {
+  /// What the instance binds to the name that the picture's coordinates have in the effect, or the
+  /// first there is.
+  std::optional<std::size_t> uv_set_of(std::size_t part, std::size_t material,
+                                       const XmlElement& binds) const {
+    const auto& looks = out_.parts[part].looks;
+    if (!out_.materials[material].texture.image || looks.empty()) return std::nullopt;
+    for (const XmlElement& input : binds.children("bind_vertex_input")) {
+      if (input.attribute("semantic") != texcoords_.at(material)) continue;
+      const double set =
+          read_decimal(trimmed(input.attribute("input_set").value_or("0"))).value_or(-1.0);
+      const auto found = looks.find(set >= 0.0 && set < 1e9 ? static_cast<std::size_t>(set) : 0);
+      if (found != looks.end()) return found->first;
+    }
+    return looks.begin()->first;
+  }
+
+  Material material(const XmlElement& element) {
     Material out = {.name = std::string(kDefaultMaterial), .rgb = kDefaultColour};
     if (!element) return out;
     out.name = element.attribute("name").value_or(element.attribute("id").value_or(out.name));
@@ -209,7 +234,11 @@ class ColladaReader {
     const XmlElement technique = effect.child("profile_COMMON").child("technique");
     for (const char* shading : {"phong", "lambert", "blinn", "constant"}) {
       const XmlElement diffuse = technique.child(shading).child("diffuse");
-      if (diffuse.child("texture")) out.rgb = {1.0F, 1.0F, 1.0F};
+      if (const XmlElement texture = diffuse.child("texture")) {
+        out.rgb = {1.0F, 1.0F, 1.0F};
+        out.texture = picture(effect, texture);
+        texcoords_[out_.materials.size()] = texture.attribute("texcoord").value_or("");
+      }
       std::string text = diffuse.child("color").text();
       std::replace(text.begin(), text.end(), '\n', ' ');
       std::string_view rest = text;
@@ -225,8 +254,51 @@ class ColladaReader {
     return out;
   }
 
+  /// From a <texture> by its sampler and surface (1.4), its sampler (1.5) or at once to the image.
+  Texture picture(const XmlElement& effect, const XmlElement& texture) {
+    const XmlElement profile = effect.child("profile_COMMON");
+    std::array<Wrap, 2> wrap = {};
+    std::string name = trimmed(texture.attribute("texture").value_or(""));
+    XmlElement image;
+    constexpr int kMostSteps = 4;
+    for (int step = 0; step < kMostSteps && !image; ++step) {
+      const XmlElement param = param_of({effect, profile, profile.child("technique")}, name);
+      if (!param) break;
+      if (const XmlElement sampler = param.child("sampler2D")) {
+        wrap = {wrap_of(sampler.child("wrap_s")), wrap_of(sampler.child("wrap_t"))};
+        image = file_.named_by(sampler.child("instance_image"), "url");
+        name = trimmed(sampler.child("source").text());
+      } else {
+        name = trimmed(param.child("surface").child("init_from").text());
+      }
+    }
+    if (!image) image = file_.by_id(name);
+    const std::string uri = trimmed(image.child("init_from").text());
+    if (!uri.empty()) return textures_.at(uri, wrap);
+    textures_.miss(name.empty() ? "one without a name" : name, "not there");
+    return {};
+  }
+
+  static XmlElement param_of(std::initializer_list<XmlElement> places, const std::string& sid) {
+    for (const XmlElement& place : places) {
+      for (const XmlElement& param : place.children("newparam")) {
+        if (param.attribute("sid") == sid) return param;
+      }
+    }
+    return {};
+  }
+
+  static Wrap wrap_of(const XmlElement& mode) {
+    const std::string word = trimmed(mode.text());
+    if (word == "MIRROR") return Wrap::mirror;
+    return word == "CLAMP" || word == "BORDER" || word == "NONE" ? Wrap::clamp : Wrap::repeat;
+  }
+
   MeshScene out_;
   ColladaFile file_;
+  TextureFiles textures_;
+  std::map<std::size_t, std::string> texcoords_;  // of materials with pictures, in their effects
+  std::set<std::string> faults_;
   std::vector<const _xmlNode*> open_;  // the nodes that we are in
   std::map<const _xmlNode*, std::vector<std::pair<std::string, std::size_t>>> shapes_;
   std::map<const _xmlNode*, std::size_t> materials_;

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "sim/core/error.hpp"
+#include "sim/mesh/hole_bridges.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
 namespace {
 
-using Ring = std::vector<std::uint32_t>;
+using Ring = HoleBridges::Ring;
 
 /// A number as assimp read it: whole part, broken part and power of ten each in single precision.
 /// So the paper's structures stay what they were, bit for bit. Where that loses millimetres, as
@@ -29,13 +31,35 @@ std::optional<double> read_single(std::string_view word) {
   return out * std::pow(10.0F, static_cast<float>(*power));
 }
 
+XmlElement array_of(const ColladaFile& file, const XmlElement& source) {
+  const XmlElement array =
+      file.named_by(source.child("technique_common").child("accessor"), "source");
+  if (array && array.name() != "source") return array;
+  const XmlElement floats = source.child("float_array");
+  return floats ? floats : source.child("int_array");
+}
+
+/// The rows of texture coordinates that a <source> gives.
+struct UvRows {
+  std::size_t stride = 2;
+  std::vector<double> values;
+
+  UvRows(const ColladaFile& file, const XmlElement& source)
+      : values(file.numbers(array_of(file, source))) {
+    const XmlElement accessor = source.child("technique_common").child("accessor");
+    const auto given = read_decimal(trimmed(accessor.attribute("stride").value_or("")));
+    if (given && !(*given >= 2.0 && *given < 1e9)) file.fail(source, "coordinates without a v");
+    if (given) stride = static_cast<std::size_t>(*given);
+  }
+  const double* row(std::size_t i) const {
+    return i < values.size() / stride ? values.data() + i * stride : nullptr;
+  }
+};
+
 /// The positions that a <source> gives: its accessor says where each begins.
 std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source) {
   const XmlElement accessor = source.child("technique_common").child("accessor");
-  XmlElement array = file.named_by(accessor, "source");
-  if (!array || array.name() == "source") array = source.child("float_array");
-  if (!array) array = source.child("int_array");
-  const std::vector<double> values = file.singles(array);
+  const std::vector<double> values = file.singles(array_of(file, source));
   const auto number = [&](const char* key, std::size_t fallback) {
     const auto value = read_decimal(trimmed(accessor.attribute(key).value_or("")));
     return value >= 0.0 && value < 1e9 ? static_cast<std::size_t>(*value) : fallback;
@@ -64,87 +88,11 @@ std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source
   return out;
 }
 
-/// Joins a polygon and its holes into one that touches itself: by the shortest bridges that cross
-/// no edge, in the plane of its Newell normal.
-class HoleBridges {
- public:
-  HoleBridges(const std::vector<Vec3>& vertices, const Ring& outer) : vertices_(vertices) {
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t i = 2; i < outer.size(); ++i) {
-      normal += (vertices[outer[i - 1]] - vertices[outer[0]])
-                    .cross(vertices[outer[i]] - vertices[outer[0]]);
-    }
-    normal.cwiseAbs().maxCoeff(&axis_);
-  }
-
-  Ring joined(Ring outer, std::vector<Ring> holes) const {
-    for (Ring& hole : holes) {
-      if ((area(hole) > 0.0) == (area(outer) > 0.0)) std::reverse(hole.begin(), hole.end());
-    }
-    while (!holes.empty()) {
-      Bridge best;
-      for (std::size_t h = 0; h < holes.size(); ++h) find_bridge(outer, holes, h, best);
-      Ring hole = std::move(holes[best.hole]);
-      holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(best.hole));
-      const auto place = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-      std::rotate(hole.begin(), hole.begin() + place(best.to), hole.end());
-      hole.push_back(hole.front());
-      hole.push_back(outer[best.from]);
-      outer.insert(outer.begin() + place(best.from) + 1, hole.begin(), hole.end());
-    }
-    return outer;
-  }
-
- private:
-  struct Bridge {
-    std::size_t hole = 0, from = 0, to = 0;
-    double length = std::numeric_limits<double>::infinity();
-  };
-
-  Eigen::Vector2d at(std::uint32_t corner) const {
-    return {vertices_[corner][(axis_ + 1) % 3], vertices_[corner][(axis_ + 2) % 3]};
-  }
-  double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const Eigen::Vector2d ab = at(b) - at(a), ac = at(c) - at(a);
-    return ab.x() * ac.y() - ab.y() * ac.x();
-  }
-  double area(const Ring& corners) const {
-    double sum = 0.0;
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      sum += turn(corners[0], corners[i - 1], corners[i]);
-    }
-    return sum;
-  }
-  bool crosses(std::uint32_t a, std::uint32_t b, const Ring& corners) const {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const std::uint32_t c = corners[i], d = corners[(i + 1) % corners.size()];
-      if (turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0) return true;
-    }
-    return false;
-  }
-  void find_bridge(const Ring& outer, const std::vector<Ring>& holes, std::size_t hole,
-                   Bridge& best) const {
-    for (std::size_t i = 0; i < outer.size(); ++i) {
-      for (std::size_t j = 0; j < holes[hole].size(); ++j) {
-        const std::uint32_t a = outer[i], b = holes[hole][j];
-        const double length = (at(a) - at(b)).norm();
-        if (!(length < best.length) || crosses(a, b, outer)) continue;
-        const bool is_blocked = std::any_of(
-            holes.begin(), holes.end(), [&](const Ring& other) { return crosses(a, b, other); });
-        if (!is_blocked) best = {hole, i, j, length};
-      }
-    }
-  }
-
-  const std::vector<Vec3>& vertices_;
-  Eigen::Index axis_ = 2;
-};
-
 /// One <triangles>, <polylist>, ...: its corners and what they make up.
 class ColladaPrimitive {
  public:
   ColladaPrimitive(const ColladaFile& file, const XmlElement& element,
-                   const XmlElement& position_source, ColladaShape& shape)
+                   const XmlElement& position_source, bool wants_uvs, ColladaShape& shape)
       : file_(file), element_(element), shape_(shape) {
     for (const XmlElement& input : element.children("input")) {
       const double offset =
@@ -156,6 +104,8 @@ class ColladaPrimitive {
         offset_ = static_cast<std::size_t>(offset);
         has_corners_ = true;
         source_ = semantic == "POSITION" ? file.named_by(input, "source") : position_source;
+      } else if (semantic == "TEXCOORD" && wants_uvs) {
+        add_uvs(input, static_cast<std::size_t>(offset));
       }
     }
     group_.material = element.attribute("material").value_or("");
@@ -168,25 +118,62 @@ class ColladaPrimitive {
     if (kind == "polylist") {
       add_polylist();
     } else {
-      for (const XmlElement& p : element_.children("p")) add(kind, corners_of(p));
+      for (const XmlElement& p : element_.children("p")) {
+        start_corners();
+        add(kind, corners_of(p));
+      }
     }
     for (const XmlElement& ph : element_.children("ph")) add_with_holes(ph);
     shape_.groups.push_back(std::move(group_));
   }
 
  private:
-  Ring corners_of(const XmlElement& p) const {
+  struct UvInput {
+    std::size_t offset = 0;
+    std::size_t set = 0;
+    UvRows rows;
+  };
+
+  void add_uvs(const XmlElement& input, std::size_t offset) {
+    try {
+      const double set = read_decimal(trimmed(input.attribute("set").value_or("0"))).value_or(0.0);
+      UvInput uvs{offset, set > 0.0 && set < 1e9 ? static_cast<std::size_t>(set) : 0,
+                  UvRows(file_, file_.named_by(input, "source"))};
+      const bool is_new =
+          std::ranges::none_of(uvs_, [&](const UvInput& other) { return other.set == uvs.set; });
+      if (is_new) uvs_.push_back(std::move(uvs));
+    } catch (const BadInput& error) {
+      shape_.faults.emplace_back(error.what());
+    }
+  }
+
+  /// Corners are numbered in the order of <p>, from where the last start_corners() was.
+  void start_corners() { indices_.clear(); }
+  Ring corners_of(const XmlElement& p) {
     const std::vector<double> values = file_.numbers(p);
     if (values.size() % stride_ != 0) {
       file_.fail(p, fmt::format("{} indices are no multiple of {}", values.size(), stride_));
     }
-    Ring out;
-    for (std::size_t at = offset_; at < values.size(); at += stride_) {
-      const bool exists =
-          values[at] >= 0.0 && values[at] < static_cast<double>(group_.part.vertices.size());
-      out.push_back(exists ? static_cast<std::uint32_t>(values[at]) : kNoVertex);
-    }
+    const auto first = static_cast<std::uint32_t>(indices_.size() / stride_);
+    indices_.insert(indices_.end(), values.begin(), values.end());
+    Ring out(values.size() / stride_);
+    std::iota(out.begin(), out.end(), first);
     return out;
+  }
+  double index_of(std::uint32_t corner, std::size_t offset) const {
+    return indices_[corner * stride_ + offset];
+  }
+  std::uint32_t vertex_of(std::uint32_t corner) const {
+    const double index = index_of(corner, offset_);
+    const bool exists = index >= 0.0 && index < static_cast<double>(group_.part.vertices.size());
+    return exists ? static_cast<std::uint32_t>(index) : kNoVertex;
+  }
+  CornerLook look_of(std::uint32_t corner, const UvInput& uvs) const {
+    const double index = index_of(corner, uvs.offset);
+    const double* const uv =
+        index >= 0.0 && index < 4e9 ? uvs.rows.row(static_cast<std::size_t>(index)) : nullptr;
+    if (uv == nullptr) return {};
+    return {.uv = {static_cast<float>(uv[0]), static_cast<float>(1.0 - uv[1])}};
   }
 
   void add(std::string_view kind, const Ring& corners) {
@@ -218,6 +205,7 @@ class ColladaPrimitive {
   }
 
   void add_with_holes(const XmlElement& ph) {
+    start_corners();
     const Ring outer = corners_of(ph.child("p"));
     std::vector<Ring> holes;
     for (const XmlElement& h : ph.children("h")) holes.push_back(corners_of(h));
@@ -227,18 +215,32 @@ class ColladaPrimitive {
     if (!is_whole) {
       ++shape_.impossible_faces;
     } else {
-      add_face(HoleBridges(group_.part.vertices, outer).joined(outer, std::move(holes)));
+      std::vector<Vec3> points;
+      for (std::uint32_t corner = 0; corner < indices_.size() / stride_; ++corner) {
+        points.push_back(group_.part.vertices[vertex_of(corner)]);
+      }
+      add_face(HoleBridges(std::move(points), outer).joined(outer, std::move(holes)));
     }
   }
 
-  static bool is_possible(std::span<const std::uint32_t> face) {
-    return face.size() >= 3 && std::find(face.begin(), face.end(), kNoVertex) == face.end();
+  bool is_possible(std::span<const std::uint32_t> face) const {
+    return face.size() >= 3 && std::none_of(face.begin(), face.end(), [&](std::uint32_t corner) {
+             return vertex_of(corner) == kNoVertex;
+           });
   }
   void add_face(std::span<const std::uint32_t> face) {
-    if (is_possible(face)) {
-      append_triangles(face, group_.part.vertices, group_.part.faces);
-    } else {
+    if (!is_possible(face)) {
       ++shape_.impossible_faces;
+      return;
+    }
+    ring_.clear();
+    for (const std::uint32_t corner : face) ring_.push_back(vertex_of(corner));
+    for (const auto& [a, b, c] : triangles_of(ring_, group_.part.vertices)) {
+      group_.part.faces.push_back({ring_[a], ring_[b], ring_[c]});
+      for (const UvInput& uvs : uvs_) {
+        group_.part.looks[uvs.set].push_back(
+            {look_of(face[a], uvs), look_of(face[b], uvs), look_of(face[c], uvs)});
+      }
     }
   }
 
@@ -247,6 +249,9 @@ class ColladaPrimitive {
   ColladaShape& shape_;
   ColladaShape::Group group_;
   XmlElement source_;
+  std::vector<UvInput> uvs_;
+  std::vector<double> indices_;  // of the corners, stride_ for each
+  Ring ring_;                    // the vertices of one face
   std::size_t stride_ = 1, offset_ = 0;
   bool has_corners_ = false;
 };
@@ -264,7 +269,10 @@ ColladaFile::ColladaFile(const std::filesystem::path& path, std::vector<std::str
 }
 
 XmlElement ColladaFile::named_by(const XmlElement& from, const char* attribute) const {
-  std::string url = trimmed(from.attribute(attribute).value_or(""));
+  return by_id(trimmed(from.attribute(attribute).value_or("")));
+}
+
+XmlElement ColladaFile::by_id(std::string url) const {
   const std::size_t hash = url.find('#');
   if (hash != url.npos && hash > 0) return {};  // in another file
   url.erase(0, hash == 0 ? 1 : 0);
@@ -309,7 +317,7 @@ void ColladaFile::fail(const XmlElement& at, const std::string& what) const {
   throw BadInput(fmt::format("{}:{}: {}", path_.string(), at.line(), what));
 }
 
-ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry) {
+ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry, bool wants_uvs) {
   ColladaShape shape;
   for (const XmlElement& body : geometry.children()) {
     const std::string_view kind = body.name();
@@ -324,7 +332,7 @@ ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry) 
       const std::string_view name = element.name();
       if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
           name == "trifans") {
-        ColladaPrimitive(file, element, positions, shape).read();
+        ColladaPrimitive(file, element, positions, wants_uvs, shape).read();
       }
     }
   }

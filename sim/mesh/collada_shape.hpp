@@ -17,6 +17,8 @@ class ColladaFile {
 
   XmlElement root() const { return tree_.root(); }
   const std::filesystem::path& path() const { return path_; }
+  /// The element of that id, which may have a # before it, if it is in this file.
+  XmlElement by_id(std::string url) const;
   /// What an attribute (url, source, target) refers to, if it is in this file.
   XmlElement named_by(const XmlElement& from, const char* attribute) const;
   /// The numbers in an element's text.
@@ -43,11 +45,13 @@ struct ColladaShape {
     MeshScene::Part part;
   };
   std::vector<Group> groups;
-  std::size_t impossible_faces = 0;  // of vertices that do not exist, or fewer than three
-  std::size_t unread = 0;            // surfaces that are no polygons
+  std::size_t impossible_faces = 0;      // of vertices that do not exist, or fewer than three
+  std::size_t unread = 0;                // surfaces that are no polygons
+  std::vector<std::string> faults = {};  // of texture coordinates, which are left out
 };
 
-/// Triangles, strips, fans and polygons, with their holes; lines are passed over.
-ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry);
+/// Triangles, strips, fans and polygons, with their holes; lines are passed over. Each set of
+/// texture coordinates becomes looks of its part.
+ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry, bool wants_uvs);
 
 }  // namespace gnbv

@@ -7,6 +7,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/plain_text.hpp"
+#include "sim/mesh/texture_file.hpp"
 
 namespace gnbv {
 namespace {
@@ -37,35 +38,6 @@ const GltfComponent* component_of(int type) {
     if (c.type == type) return &c;
   }
   return nullptr;
-}
-
-/// Nothing for what is no base64 (RFC 4648, with either alphabet); blanks count for nothing.
-std::optional<std::string> bytes_of_base64(std::string_view text) {
-  std::string out;
-  std::uint32_t bits = 0;
-  unsigned filled = 0;
-  for (const char c : text) {
-    if (c == '=' || c == '\n' || c == '\r' || c == ' ' || c == '\t') continue;
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z')
-      value = static_cast<std::uint32_t>(c - 'A');
-    else if (c >= 'a' && c <= 'z')
-      value = static_cast<std::uint32_t>(c - 'a' + 26);
-    else if (c >= '0' && c <= '9')
-      value = static_cast<std::uint32_t>(c - '0' + 52);
-    else if (c == '+' || c == '-')
-      value = 62;
-    else if (c == '/' || c == '_')
-      value = 63;
-    else
-      return std::nullopt;
-    bits = bits << 6U | value;
-    filled += 6;
-    if (filled < 8) continue;
-    filled -= 8;
-    out += static_cast<char>(bits >> filled & 0xFFU);
-  }
-  return out;
 }
 
 /// The JSON text of a .glb and its bytes; chunks begin where the ones before them end.
@@ -200,10 +172,7 @@ std::string_view GltfFile::buffer(std::size_t i) {
   const std::string& name = uri->get_ref<const std::string&>();
   std::string& bytes = buffers_[i];
   if (name.starts_with("data:")) {
-    const std::size_t comma = std::min(name.find(','), name.size() - 1);
-    const std::string_view data = std::string_view(name).substr(comma + 1);
-    const bool is_base64 = name.substr(0, comma).ends_with("base64");
-    const auto decoded = is_base64 ? bytes_of_base64(data) : percent_decoded(data);
+    const auto decoded = bytes_of_data_uri(name);
     if (!decoded) fail(fmt::format("the data of buffers[{}] are no base64", i));
     bytes = *decoded;
     return bytes;
@@ -216,6 +185,7 @@ std::string_view GltfFile::buffer(std::size_t i) {
     fail(fmt::format("its buffer '{}' is not there", file));
   }
   bytes = read_file(folder / file);
+  files_.push_back(folder / file);
   if (bytes.starts_with("version https://git-lfs")) {
     fail(fmt::format("its buffer '{}' is a Git LFS pointer: git lfs pull", file));
   }
@@ -320,6 +290,17 @@ GltfNumbers GltfFile::numbers(std::size_t accessor, std::size_t width) {
   }
   if (from.contains("sparse")) read_sparse(from["sparse"], component, is_share, out);
   return out;
+}
+
+const GltfFile::Json& object_in(const GltfFile::Json& object, const char* key) {
+  static const GltfFile::Json kNone = GltfFile::Json::object();
+  const auto found = object.find(key);
+  return found != object.end() && found->is_object() ? *found : kNone;
+}
+
+std::string text_in(const GltfFile::Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 }  // namespace gnbv

@@ -46,11 +46,15 @@ class GltfFile {
   /// What an accessor gives, `width` numbers a row; integers that stand for shares as such.
   GltfNumbers numbers(std::size_t accessor, std::size_t width);
 
+  /// The bytes of a bufferView.
+  std::string_view view(std::size_t i);
+  /// The files of the buffers that were read.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
   std::string_view buffer(std::size_t i);
-  std::string_view view(std::size_t i);
   void read_rows(std::string_view bytes, std::size_t stride, int component, bool is_share,
                  std::size_t first, std::size_t rows, GltfNumbers& out) const;
   void read_sparse(const Json& sparse, int component, bool is_share, GltfNumbers& out);
@@ -59,6 +63,12 @@ class GltfFile {
   Json json_;
   std::optional<std::string> chunk_;  // the bytes within a .glb
   std::map<std::size_t, std::string> buffers_;
+  std::vector<std::filesystem::path> files_;
 };
+
+/// An object under a key; an empty one without it.
+const GltfFile::Json& object_in(const GltfFile::Json& object, const char* key);
+/// A text under a key; an empty one without it.
+std::string text_in(const GltfFile::Json& object, const char* key);
 
 }  // namespace gnbv

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "sim/core/error.hpp"
-#include "sim/mesh/gltf_file.hpp"
+#include "sim/mesh/gltf_looks.hpp"
 #include "sim/mesh/mesh_scene.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
@@ -28,29 +28,17 @@ Vec3 moved(const Matrix4& T, const Vec3& p) {
   return T.topLeftCorner<3, 3>() * p + T.topRightCorner<3, 1>();
 }
 
-/// An object under a key; an empty one without it.
-const Json& object_in(const Json& object, const char* key) {
-  static const Json kNone = Json::object();
-  const auto found = object.find(key);
-  return found != object.end() && found->is_object() ? *found : kNone;
-}
-
-std::string text_in(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 std::string compressed_by(std::string_view extension) {
   return fmt::format("is compressed ({}), which is not read: export it without", extension);
 }
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& path) : file_(path) {}
+  explicit GltfReader(const std::filesystem::path& path) : file_(path), looks_(file_) {}
 
   MeshScene read() {
     check_extensions();
-    read_materials();
+    out_.materials = looks_.materials();
     place_nodes();
     std::set<std::size_t> shown;
     for (const std::size_t node : nodes_of_scene()) {
@@ -65,6 +53,10 @@ class GltfReader {
       out_.warnings.push_back(fmt::format("{}: {} of {} meshes are not in the scene, and left out",
                                           file_.path().string(), hidden, file_.count("meshes")));
     }
+    looks_.warn(out_.warnings);
+    out_.files = file_.files();
+    const auto& pictures = looks_.files();
+    out_.files.insert(out_.files.end(), pictures.begin(), pictures.end());
     out_.declared = {1.0, 'y'};
     return std::move(out_);
   }
@@ -89,28 +81,6 @@ class GltfReader {
                                : fmt::format("requires the extension {}, which is not read",
                                              word.substr(0, 60)));
     }
-  }
-
-  /// The last one is for faces without a material.
-  void read_materials() {
-    for (std::size_t i = 0; i < file_.count("materials"); ++i) {
-      const Json& from = file_.item("materials", i);
-      Material& to = out_.materials.emplace_back();
-      to.name = text_in(from, "name");
-      const Json& metal = object_in(from, "pbrMetallicRoughness");
-      const Json& gloss =
-          object_in(object_in(from, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-      to.rgb = {1.0F, 1.0F, 1.0F};
-      for (const Json& rgba :
-           {metal.value("baseColorFactor", Json()), gloss.value("diffuseFactor", Json())}) {
-        if (!rgba.is_array() || rgba.size() < 3) continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (rgba[k].is_number()) to.rgb[k] = std::clamp(rgba[k].get<float>(), 0.0F, 1.0F);
-        }
-        break;
-      }
-    }
-    out_.materials.push_back({.name = std::string(kDefaultMaterial), .rgb = {1.0F, 1.0F, 1.0F}});
   }
 
   Matrix4 T_parent_node(const Json& node) const {
@@ -194,9 +164,9 @@ class GltfReader {
       const bool is_shared = !skin && weights.empty();
       const auto [entry, is_new] = part_of_.try_emplace(
           {mesh_index, is_shared ? -1 : static_cast<long long>(node_index), i}, out_.parts.size());
-      if (is_new) add_part(primitive, weights, skin);
       const std::size_t material =
           file_.index(primitive, "material", "materials").value_or(out_.materials.size() - 1);
+      if (is_new) add_part(primitive, weights, skin, material);
       // only joints place a skinned mesh
       for (const Matrix4& T : places) {
         out_.instances.push_back({entry->second, material, skin ? Matrix4::Identity() : T});
@@ -231,7 +201,7 @@ class GltfReader {
   }
 
   void add_part(const Json& primitive, const std::vector<double>& weights,
-                std::optional<std::size_t> skin) {
+                std::optional<std::size_t> skin, std::size_t material) {
     MeshScene::Part& part = out_.parts.emplace_back();
     constexpr std::size_t kTriangles = 4, kFan = 6;  // 5 is a strip
     const std::size_t mode = file_.size(primitive, "mode", kTriangles);
@@ -253,6 +223,10 @@ class GltfReader {
     morph(primitive, weights, part.vertices);
     if (skin) pose(attributes, *skin, part.vertices);
     add_faces(primitive, mode == kTriangles, mode == kFan, part);
+    const auto looks = looks_.of_vertices(attributes, material, part.vertices.size());
+    if (looks.empty()) return;
+    for (const auto& [a, b, c] : part.faces)
+      part.looks[0].push_back({looks[a], looks[b], looks[c]});
   }
 
   std::vector<Vec3> positions_of(std::size_t accessor) {
@@ -342,6 +316,7 @@ class GltfReader {
   }
 
   GltfFile file_;
+  GltfLooks looks_;
   MeshScene out_;
   std::vector<Matrix4> T_file_node_;
   std::vector<std::vector<std::size_t>> children_;

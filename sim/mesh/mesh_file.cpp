@@ -74,6 +74,7 @@ void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& readi
   }
   reading.not_finite = std::move(polygons.not_finite);
   reading.lost_faces = polygons.lost_faces;
+  reading.files = std::move(polygons.files);
   reading.mesh = triangulated(std::move(polygons));
 }
 
@@ -84,6 +85,7 @@ void read_scene(const MeshFileConfig& config, const std::string& extension, Mesh
   reading.mesh = assembled(scene, declare(config, scene.declared, reading), config.path);
   reading.warnings = std::move(scene.warnings);
   reading.lost_faces = scene.lost_faces;
+  reading.files = std::move(scene.files);
   if (reading.mesh.faces.empty()) {
     const std::string path = config.path + ":";
     const std::string why = reading.warnings.empty() ? "" : reading.warnings.front();
@@ -102,6 +104,7 @@ void read_links(const MeshFileConfig& config, const std::string& path, MeshReadi
   reading.not_finite = std::move(model.not_finite);
   reading.warnings = std::move(model.warnings);
   reading.lost_faces = model.lost_faces;
+  reading.files = std::move(model.files);
 }
 
 /// A message without the path that it begins with.
@@ -172,12 +175,14 @@ TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* w
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     if (is_flat(mesh, i)) continue;
     mesh.faces[kept] = mesh.faces[i];
+    if (!mesh.face_looks.empty()) mesh.face_looks[kept] = mesh.face_looks[i];
     mesh.face_material[kept++] = mesh.face_material[i];
   }
   const std::size_t flat = mesh.faces.size() - kept;
   if (kept == 0) throw BadInput(fmt::format("{}: holds no faces with an area", config.path));
   mesh.faces.resize(kept);
   mesh.face_material.resize(kept);
+  mesh.face_looks.resize(mesh.face_looks.empty() ? 0 : kept);
   if (flat > 0) {
     reading.warnings.push_back(
         fmt::format("{}: {} faces without area left out", config.path, flat));

@@ -39,6 +39,7 @@ struct MeshReading {
   DeclaredAxes declared;
   std::vector<std::string> warnings;  // what is left out, a sentence each
   std::size_t lost_faces = 0;         // that could not be used; flat ones are in the mesh
+  std::vector<std::filesystem::path> files = {};  // beside it, that it was read from
 };
 
 /// Reads .obj, .ply, .stl, .dae, .gltf and .glb, places instances and triangulates; and .sdf,

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
+
+#include "sim/core/error.hpp"
+#include "sim/core/rng.hpp"
 
 namespace gnbv {
 namespace {
@@ -11,12 +15,26 @@ using Corners = std::array<Vec3, 3>;
 
 double area_m2(const Corners& p) { return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm(); }
 
-/// For each vertex the first one at the same place.
+/// For each vertex the first one at the same place, as PositionIndices has it; by a table of
+/// indices alone, since a node a vertex is what lint of millions waits for.
 std::vector<std::uint32_t> first_at_place(const std::vector<Vec3f>& vertices_m) {
-  std::vector<std::uint32_t> first;
-  PositionIndices indices;
-  for (const Vec3f& p_m : vertices_m) {
-    first.push_back(indices.index_of(p_m, static_cast<std::uint32_t>(first.size())).first);
+  constexpr std::uint32_t kFree = ~std::uint32_t{0};
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices_m.size() + 1), kFree), first;
+  first.reserve(vertices_m.size());
+  for (std::uint32_t i = 0; i < vertices_m.size(); ++i) {
+    first.push_back(i);
+    if (vertices_m[i].hasNaN()) continue;
+    std::uint64_t hash = 0;
+    for (const float x : vertices_m[i]) {
+      hash = mix_bits(hash + std::bit_cast<std::uint32_t>(x + 0.0F));  // -0 becomes 0
+    }
+    for (std::size_t at = hash;; ++at) {
+      std::uint32_t& entry = table[at & (table.size() - 1)];
+      if (entry == kFree) entry = i;
+      if (vertices_m[entry] != vertices_m[i]) continue;
+      first.back() = entry;
+      break;
+    }
   }
   return first;
 }
@@ -24,8 +42,11 @@ std::vector<std::uint32_t> first_at_place(const std::vector<Vec3f>& vertices_m) 
 /// A sound face by its corners in ascending order and the sense in which it runs through them.
 struct SortedFace {
   std::array<std::uint32_t, 3> corners;
-  bool is_reversed = false;
-  std::size_t face = 0;
+  std::uint32_t sense_and_face = 0;  // 16 bytes in all: they are sorted
+
+  static constexpr std::uint32_t kReversed = 1U << 31U;
+  bool is_reversed() const { return (sense_and_face & kReversed) != 0; }
+  std::size_t face() const { return sense_and_face & ~kReversed; }
 
   bool has_corners_of(const SortedFace& other) const { return corners == other.corners; }
   auto operator<=>(const SortedFace&) const = default;
@@ -35,7 +56,7 @@ SortedFace sorted(std::array<std::uint32_t, 3> corners, std::size_t face) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   const bool is_reversed = corners[1] > corners[2];
   if (is_reversed) std::swap(corners[1], corners[2]);
-  return {corners, is_reversed, face};
+  return {corners, static_cast<std::uint32_t>(face) | (is_reversed ? SortedFace::kReversed : 0U)};
 }
 
 void add(FaceTally& tally, double area) {
@@ -47,24 +68,29 @@ void add(FaceTally& tally, double area) {
 void tally_twins(const TriangleMesh& mesh, const std::vector<SortedFace>& faces, MeshLint& out) {
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
     while (end < faces.size() && faces[end].has_corners_of(faces[begin])) ++end;
-    const bool has_both_senses = faces[begin].is_reversed != faces[end - 1].is_reversed;
+    const bool has_both_senses = faces[begin].is_reversed() != faces[end - 1].is_reversed();
     for (std::size_t i = begin; i < end; ++i) {
-      const double area = face_area_m2(mesh, faces[i].face);
-      if (i > begin && faces[i].is_reversed == faces[i - 1].is_reversed) add(out.duplicate, area);
+      const double area = face_area_m2(mesh, faces[i].face());
+      if (i > begin && faces[i].is_reversed() == faces[i - 1].is_reversed())
+        add(out.duplicate, area);
       if (!has_both_senses) continue;
       add(out.two_sided, area);
-      out.is_two_sided[faces[i].face] = true;
+      out.is_two_sided[faces[i].face()] = true;
     }
   }
 }
 
 /// Faces of the same corners count once.
 void count_edges(const std::vector<SortedFace>& faces, MeshLint& out) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * faces.size());
+  const auto edge = [](std::uint32_t low, std::uint32_t high) {
+    return std::uint64_t{low} << 32U | high;
+  };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (i > 0 && faces[i].has_corners_of(faces[i - 1])) continue;
     const auto& [a, b, c] = faces[i].corners;
-    edges.insert(edges.end(), {{a, b}, {b, c}, {a, c}});
+    edges.insert(edges.end(), {edge(a, b), edge(b, c), edge(a, c)});
   }
   std::sort(edges.begin(), edges.end());
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
@@ -138,7 +164,9 @@ MeshLint lint_mesh(const TriangleMesh& mesh) {
   out.is_sound.assign(mesh.faces.size(), false);
   out.is_two_sided.assign(mesh.faces.size(), false);
   std::vector<bool> is_used(mesh.vertices_m.size(), false);
+  GNBV_CHECK(mesh.faces.size() < SortedFace::kReversed, "{} faces", mesh.faces.size());
   std::vector<SortedFace> sound;
+  sound.reserve(mesh.faces.size());
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     std::array<std::uint32_t, 3> corners{};
     bool is_finite = true;

@@ -27,6 +27,14 @@ class Assembly {
     const Matrix4 T_world_part = T_world_file * instance.T_file_part;
     const bool is_mirrored = T_world_part.topLeftCorner<3, 3>().determinant() < 0.0;
     const std::uint16_t material = material_of(instance.material);
+    const auto looks = instance.uv_set ? part.looks.find(*instance.uv_set) : part.looks.end();
+    if (looks != part.looks.end()) {
+      mesh_.face_looks.resize(mesh_.faces.size());  // of those before it that have none
+      for (std::array<CornerLook, 3> of_face : looks->second) {
+        if (is_mirrored) std::swap(of_face[1], of_face[2]);
+        mesh_.face_looks.push_back(of_face);
+      }
+    }
     std::vector<std::uint32_t> world_index(part.vertices.size(), kNoVertex);
     for (std::array<std::uint32_t, 3> face : part.faces) {
       for (std::uint32_t& corner : face) {
@@ -40,7 +48,10 @@ class Assembly {
     }
   }
 
-  TriangleMesh take() { return std::move(mesh_); }
+  TriangleMesh take() {
+    if (!mesh_.face_looks.empty()) mesh_.face_looks.resize(mesh_.faces.size());
+    return std::move(mesh_);
+  }
 
  private:
   std::uint32_t add_vertex(const Vec3& p_part, const Matrix4& T_world_part) {

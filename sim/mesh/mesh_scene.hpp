@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,24 +15,28 @@ struct MeshScene {
   struct Part {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
+    std::map<std::size_t, FaceLooks> looks = {};  // as faces, by set of texture coordinates
   };
   struct Instance {
     std::size_t part = 0;
     std::size_t material = 0;
     Eigen::Matrix4d T_file_part = Eigen::Matrix4d::Identity();
+    std::optional<std::size_t> uv_set = 0;  // of the part's looks, where it has them; or none
   };
   std::vector<Part> parts;
   std::vector<Instance> instances;
   std::vector<Material> materials;
   DeclaredAxes declared;
-  std::size_t lost_faces = 0;         // that could not be used
-  std::vector<std::string> warnings;  // what is left out, a sentence each
+  std::size_t lost_faces = 0;                     // that could not be used
+  std::vector<std::string> warnings;              // what is left out, a sentence each
+  std::vector<std::filesystem::path> files = {};  // beside it, that it was read from
 
   /// Counts what is left out, as "4 faces that ...", with its warning. Nothing for none.
   void lose(const std::filesystem::path& path, std::size_t count, const std::string& what);
 };
 
-/// Normals, texture coordinates, images and colours of vertices are passed over, whatever they are.
+/// Normals are passed over, whatever they are. What is wrong with pictures, texture coordinates and
+/// colours is a warning.
 /// Each throws BadInput naming the file, and the place in it where there is one.
 
 /// Text or bytes. A facet of more than three vertices is a polygon.

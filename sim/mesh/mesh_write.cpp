@@ -45,12 +45,12 @@ std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
   return out;
 }
 
-/// Each face has the sRGB bytes of its material, as MeshLab shows them. Our own, since assimp
-/// (5.2.4) writes binary PLY with colours wrong.
+/// Each face has the sRGB bytes of its material, of its picture the mean, as MeshLab shows them.
+/// Our own, since assimp (5.2.4) writes binary PLY with colours wrong.
 std::string ply_bytes_of(const TriangleMesh& mesh) {
   std::vector<Rgb8> colours;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const auto& [r, g, b] = mesh.materials[material_of(mesh, i)].rgb;
+    const auto [r, g, b] = mean_colour(mesh, i);
     colours.push_back({srgb_byte(r), srgb_byte(g), srgb_byte(b)});
   }
   return ply_bytes({.places_world_m = mesh.vertices_m},

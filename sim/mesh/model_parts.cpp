@@ -67,6 +67,7 @@ void transform(TriangleMesh& mesh, const Matrix4& T) {
   }
   if (T.topLeftCorner<3, 3>().determinant() >= 0.0) return;
   for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+  for (auto& looks : mesh.face_looks) std::swap(looks[1], looks[2]);
 }
 
 /// An attribute of URDF or a child of SDF.
@@ -149,6 +150,8 @@ const TriangleMesh& ModelParts::mesh_at(const fs::path& file) {
   if (!part.not_finite.empty() && reading.not_finite.empty()) reading.not_finite = part.not_finite;
   reading.lost_faces += part.lost_faces;
   reading.warnings.insert(reading.warnings.end(), part.warnings.begin(), part.warnings.end());
+  reading.files.push_back(file);
+  reading.files.insert(reading.files.end(), part.files.begin(), part.files.end());
   return entry->second = std::move(part.mesh);
 }
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <map>
 #include <optional>
 #include <sstream>
 
 #include "sim/core/file.hpp"
+#include "sim/mesh/obj_materials.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
@@ -18,11 +18,11 @@ namespace gnbv {
 namespace {
 
 /// Statements of the OBJ specification that we do not need.
-constexpr std::array<std::string_view, 35> kIgnored = {
-    "vt",     "vn",  "vp",    "s",     "l",     "p",        "o",          "g",        "mg",
-    "cstype", "deg", "bmat",  "step",  "curv",  "curv2",    "parm",       "trim",     "hole",
-    "scrv",   "sp",  "end",   "con",   "bevel", "c_interp", "d_interp",   "lod",      "maplib",
-    "usemap", "csh", "ctech", "stech", "cdc",   "res",      "shadow_obj", "trace_obj"};
+constexpr std::array<std::string_view, 34> kIgnored = {
+    "vn",  "vp",    "s",     "l",     "p",        "o",          "g",        "mg",     "cstype",
+    "deg", "bmat",  "step",  "curv",  "curv2",    "parm",       "trim",     "hole",   "scrv",
+    "sp",  "end",   "con",   "bevel", "c_interp", "d_interp",   "lod",      "maplib", "usemap",
+    "csh", "ctech", "stech", "cdc",   "res",      "shadow_obj", "trace_obj"};
 /// Those that hold surface: free forms, patches and other files.
 constexpr std::array<std::string_view, 5> kUnread = {"surf", "bsp", "bzp", "cdp", "call"};
 
@@ -62,87 +62,20 @@ std::optional<long long> corner_of(std::string_view word) {
   return value;
 }
 
+/// The texture coordinate "vt" of such a corner, counted in the same way; 0 is none.
+long long uv_of(std::string_view word) {
+  const std::size_t slash = std::min(word.find('/'), word.size() - 1);
+  long long value = 0;
+  std::from_chars(word.data() + slash + 1, word.data() + word.size(), value);
+  return value;
+}
+
 bool has_control_bytes(std::string_view line) {
   return std::any_of(line.begin(), line.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return (byte < 0x20 && c != '\t' && c != '\r') || byte == 0x7f;
   });
 }
-
-/// One number means a grey. Nothing for a spectrum or unreadable numbers.
-std::optional<std::array<float, 3>> colour_in(Words words) {
-  std::array<float, 3> rgb{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto value = read_decimal(words[std::min(i, words.size() - 1)]);
-    if (!value || std::isnan(*value)) return std::nullopt;
-    rgb[i] = static_cast<float>(std::clamp(*value, 0.0, 1.0));
-  }
-  return rgb;
-}
-
-/// Faces ahead of the first `usemtl` have the last material of a library named before them, or
-/// otherwise that of the first `usemtl`.
-class ObjMaterials {
- public:
-  explicit ObjMaterials(std::string path) : path_(std::move(path)) {}
-
-  /// Takes the names and diffuse colours of a library, which may come after their use.
-  void read_library(std::istream& file, const std::filesystem::path& library) {
-    std::vector<std::string_view> words;
-    std::string material;
-    LineReader lines(file);
-    for (std::string_view line; lines.next(line);) {
-      split(line, words);
-      if (words.size() < 2) continue;
-      const Words values = Words(words).subspan(1);
-      if (words[0] == "newmtl") {
-        material = joined(values);
-        rgb_of_.try_emplace(material, kDefaultColour);
-      } else if (words[0] == "Kd" && !material.empty()) {
-        if (const auto rgb = colour_in(values)) rgb_of_[material] = *rgb;
-      }
-    }
-    need_whole(file, library);
-    if (!is_named_ && index_of_.empty() && !material.empty()) current_ = material;
-  }
-
-  void use(const std::string& name) {
-    if (!is_named_ && current_ == kDefaultMaterial && !index_of_.empty()) index_of_ = {{name, 0}};
-    is_named_ = true;
-    if (name != current_) index_.reset();
-    current_ = name;
-  }
-
-  /// Of the current material among those that faces use, in order of first use. Throws BadInput
-  /// naming the file when they become too many.
-  std::uint16_t index_for_face() {
-    if (index_) return *index_;
-    const std::size_t next = index_of_.size();
-    const auto [entry, is_new] = index_of_.try_emplace(current_, static_cast<std::uint16_t>(next));
-    if (is_new) as_index<std::uint16_t>(next, path_, "materials");
-    index_ = entry->second;
-    return *index_;
-  }
-
-  /// Those that faces use, once all is read.
-  std::vector<Material> materials() const {
-    std::vector<Material> out(index_of_.size());
-    for (const auto& [name, index] : index_of_) {
-      auto found = rgb_of_.find(name);
-      if (found == rgb_of_.end()) found = rgb_of_.find(name.substr(0, name.find(" #")));
-      out[index] = {.name = name, .rgb = found != rgb_of_.end() ? found->second : kDefaultColour};
-    }
-    return out;
-  }
-
- private:
-  std::string path_;
-  std::map<std::string, std::array<float, 3>> rgb_of_;  // of the libraries' materials
-  std::map<std::string, std::uint16_t> index_of_;       // of the materials that faces use
-  std::string current_ = std::string(kDefaultMaterial);
-  std::optional<std::uint16_t> index_;  // of the current one, once a face has used it
-  bool is_named_ = false;               // by a usemtl
-};
 
 /// Lines of one kind that are left out, for one warning.
 struct Dropped {
@@ -178,11 +111,11 @@ class ObjReader {
     }
     need_whole(file_, path_);
     if (goes_on) add_statement(statement);
+    if (!out_.face_ends.empty()) add_looks();
     warn(unreadable_, "unreadable lines");
     warn(impossible_, "faces of vertices that do not exist");
     warn(unread_, "surfaces that are no polygons");
     out_.lost_faces = impossible_.count + broken_faces_ + unread_.count;
-    if (!out_.face_ends.empty()) out_.materials = materials_.materials();
     return std::move(out_);
   }
 
@@ -195,12 +128,13 @@ class ObjReader {
     const Words values = Words(words_).subspan(1);
     if (keyword == "v") return add_vertex(values);
     if (keyword == "f" || keyword == "fo") return add_face(values);
+    if (keyword == "vt") add_uv(values);
     if (keyword == "usemtl" || keyword == "mtllib") {
       if (values.empty()) return drop_line();
       keyword == "usemtl" ? materials_.use(joined(values)) : use_libraries(values);
     } else if (is_one_of(kUnread, keyword)) {
       unread_.add(line_);
-    } else if (!is_one_of(kIgnored, keyword)) {
+    } else if (keyword != "vt" && !is_one_of(kIgnored, keyword)) {
       if (!is_keyword(keyword)) return drop_line();
       unreadable_.add(line_);
     }
@@ -224,12 +158,41 @@ class ObjReader {
     out_.vertices.push_back(p);
   }
 
+  void add_uv(Words values) {
+    Vec2f& uv = uvs_.emplace_back(CornerLook().uv);
+    const auto u = values.empty() ? std::nullopt : read_decimal(values[0]);
+    const auto v = values.size() < 2 ? 0.0 : read_decimal(values[1]);
+    if (u && v) uv = {static_cast<float>(*u), static_cast<float>(*v)};
+  }
+
+  /// Once all libraries are read.
+  void add_looks() {
+    TextureFiles textures(path_);
+    out_.materials = materials_.materials(textures, warnings_);
+    textures.warn(warnings_);
+    out_.files.insert(out_.files.end(), textures.files().begin(), textures.files().end());
+    const bool has_pictures = std::ranges::any_of(
+        out_.materials, [](const Material& material) { return material.texture.image != nullptr; });
+    if (!has_pictures || corner_uvs_.empty()) return;
+    corner_uvs_.resize(out_.corners.size(), kNoVertex);
+    out_.corner_looks.resize(out_.corners.size());
+    std::size_t corner = 0;
+    for (std::size_t face = 0; face < out_.face_ends.size(); ++face) {
+      for (; corner < out_.face_ends[face]; ++corner) {
+        if (corner_uvs_[corner] >= uvs_.size()) continue;
+        out_.corner_looks[corner].uv =
+            materials_.placed(out_.face_material[face], uvs_[corner_uvs_[corner]]);
+      }
+    }
+  }
+
   void add_face(Words values) {
     settle(false);
     const auto count = static_cast<long long>(out_.vertices.size());
     const std::size_t begin = out_.corners.size();
     const auto drop = [&](Dropped& as) {
       out_.corners.resize(begin);
+      corner_uvs_.resize(std::min(begin, corner_uvs_.size()));
       as.add(line_);
     };
     const auto drop_broken = [&] {
@@ -242,6 +205,11 @@ class ObjReader {
       const long long vertex = *corner < 0 ? count + 1 + *corner : *corner;
       if (vertex < 1 || vertex > count) return drop(impossible_);
       out_.corners.push_back(static_cast<std::uint32_t>(vertex - 1));
+      const long long named = uv_of(value);
+      if (named == 0 || !materials_.may_have_pictures()) continue;
+      const long long uv = named < 0 ? static_cast<long long>(uvs_.size()) + named : named - 1;
+      corner_uvs_.resize(out_.corners.size(), kNoVertex);
+      corner_uvs_.back() = static_cast<std::uint32_t>(std::clamp(uv, -1LL, kMostUvs));
     }
     if (values.size() < 3) return drop_broken();
     out_.face_ends.push_back(as_index(out_.corners.size(), path_.string(), "corners"));
@@ -264,12 +232,13 @@ class ObjReader {
     const std::filesystem::path library = path_.parent_path() / name;
     if (mtl_) {
       std::istringstream text{std::string(*mtl_)};
-      return materials_.read_library(text, library);
+      return materials_.read_library(text, library, "");
     }
     std::error_code ignored;  // a file that we may not look at counts as not found
     if (std::filesystem::is_regular_file(library, ignored)) {
       std::ifstream file = open_file(library);
-      return materials_.read_library(file, library);
+      out_.files.push_back(library);
+      return materials_.read_library(file, library, std::filesystem::path(name).parent_path());
     }
     warnings_.push_back(
         fmt::format("{}:{}: material file {} not found", path_.string(), line_, name));
@@ -303,7 +272,10 @@ class ObjReader {
   std::istream& file_;
   std::optional<std::string_view> mtl_;
   std::vector<std::string>& warnings_;
+  static constexpr long long kMostUvs = kNoVertex;
   PolygonMesh out_;
+  std::vector<Vec2f> uvs_;                 // of the vt
+  std::vector<std::uint32_t> corner_uvs_;  // of the corners so far, or of the first of them
   std::size_t line_ = 0;
   std::vector<std::string_view> words_;  // of this line
   ObjMaterials materials_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "sim/core/image.hpp"
 
@@ -23,14 +24,14 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
 /// polygon, from 0.
 class EarClipper {
  public:
+  /// Calls add(a, b, c) for each triangle.
+  template <typename Add>
   void cut(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
-           Faces& faces) {
-    if (corners.size() == 3) return faces.push_back({corners[0], corners[1], corners[2]});
+           const Add& add_triangle) {
+    if (corners.size() == 3) return add_triangle(0U, 1U, 2U);
     lay_flat(corners, vertices);
     link(static_cast<std::uint32_t>(corners.size()));
-    const auto add = [&](std::uint32_t b) {
-      faces.push_back({corners[previous_[b]], corners[b], corners[next_[b]]});
-    };
+    const auto add = [&](std::uint32_t b) { add_triangle(previous_[b], b, next_[b]); };
     Care care = Care::clean;
     std::uint32_t b = 1;
     std::size_t tried = 0;
@@ -188,8 +189,14 @@ void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
   std::size_t begin = 0;
   for (std::size_t i = 0; i < polygons.face_ends.size(); ++i) {
     const auto corners = std::span(polygons.corners).subspan(begin, polygons.face_ends[i] - begin);
-    begin = polygons.face_ends[i];
-    clipper.cut(corners, polygons.vertices, mesh.faces);
+    const std::size_t first = std::exchange(begin, polygons.face_ends[i]);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.faces.push_back({corners[a], corners[b], corners[c]});
+      if (polygons.corner_looks.empty()) return;
+      const CornerLook* const looks = polygons.corner_looks.data() + first;
+      mesh.face_looks.push_back({looks[a], looks[b], looks[c]});
+    };
+    clipper.cut(corners, polygons.vertices, add);
     mesh.face_material.resize(mesh.faces.size(),
                               polygons.face_material.empty() ? 0 : polygons.face_material[i]);
   }
@@ -197,9 +204,12 @@ void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
 
 }  // namespace
 
-void append_triangles(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
-                      std::vector<std::array<std::uint32_t, 3>>& faces) {
-  EarClipper().cut(corners, vertices, faces);
+Faces triangles_of(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices) {
+  Faces out;
+  EarClipper().cut(corners, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    out.push_back({a, b, c});
+  });
+  return out;
 }
 
 void take_colours(std::span<const std::uint32_t> face_rgb, std::vector<Material>& materials,
@@ -226,6 +236,7 @@ TriangleMesh triangulated(PolygonMesh polygons) {
   give_back(polygons.corners);
   give_back(polygons.face_ends);
   give_back(polygons.face_material);
+  give_back(polygons.corner_looks);
   mesh.vertices_m.reserve(polygons.vertices.size());
   for (const Vec3& p : polygons.vertices) mesh.vertices_m.push_back(p.cast<float>());
   give_back(polygons.vertices);

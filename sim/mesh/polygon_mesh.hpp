@@ -31,10 +31,12 @@ struct PolygonMesh {
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
   std::vector<std::uint32_t> vertex_rgb;     // (n), 0xrrggbb in sRGB, to colour the faces; or empty
   std::string not_finite;  // names the first coordinate that is NaN or infinite; empty without one
-  std::size_t lost_faces = 0;  // that could not be used
+  std::size_t lost_faces = 0;                     // that could not be used
+  std::vector<CornerLook> corner_looks = {};      // as corners; or empty
+  std::vector<std::filesystem::path> files = {};  // beside it, that it was read from
 };
 
-/// Reads the shape and the diffuse colours of its materials; no normals, no texture coordinates.
+/// Reads the shape, the diffuse colours of its materials and their pictures; no normals.
 /// Leaves out unreadable lines, faces of vertices that do not exist and surfaces that are no
 /// polygons, and counts them in `warnings`. Throws BadInput naming the line where that could number
 /// vertices wrongly: a line beside a vertex that begins with no keyword, with more vertices after
@@ -61,9 +63,9 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path,
 /// the material of its polygon or, where there is `vertex_rgb`, the mean colour of its corners.
 TriangleMesh triangulated(PolygonMesh polygons);
 
-/// Appends the triangles of one polygon, cut in the same way.
-void append_triangles(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices,
-                      std::vector<std::array<std::uint32_t, 3>>& faces);
+/// The triangles of one polygon, cut in the same way: places in `corners`.
+std::vector<std::array<std::uint32_t, 3>> triangles_of(std::span<const std::uint32_t> corners,
+                                                       const std::vector<Vec3>& vertices);
 
 /// Materials for faces of these colours, 0xrrggbb in sRGB, in order of first use; beyond 256 of
 /// them in 16 steps a channel.

@@ -90,7 +90,9 @@ class StlText {
   void end_facet() {
     is_in_facet_ = false;
     if (facet_.size() >= 3) {
-      append_triangles(facet_, part_.vertices, part_.faces);
+      for (const auto& [a, b, c] : triangles_of(facet_, part_.vertices)) {
+        part_.faces.push_back({facet_[a], facet_[b], facet_[c]});
+      }
     } else {
       ++lost_;
     }

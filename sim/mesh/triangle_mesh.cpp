@@ -31,6 +31,11 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
   }
   const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
   const std::size_t first_material = mesh.materials.size();
+  if (!mesh.face_looks.empty() || !more.face_looks.empty()) {
+    mesh.face_looks.resize(mesh.faces.size());
+    mesh.face_looks.insert(mesh.face_looks.end(), more.face_looks.begin(), more.face_looks.end());
+    mesh.face_looks.resize(mesh.faces.size() + more.faces.size());
+  }
   mesh.face_material.resize(mesh.faces.size(), 0);
   mesh.vertices_m.insert(mesh.vertices_m.end(), more.vertices_m.begin(), more.vertices_m.end());
   mesh.materials.insert(mesh.materials.end(), more.materials.begin(), more.materials.end());

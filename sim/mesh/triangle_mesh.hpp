@@ -4,12 +4,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "sim/core/image.hpp"
 #include "sim/core/pose.hpp"
 
 namespace gnbv {
@@ -24,13 +27,35 @@ enum class Pattern {
   checker   // cubes of rgb and rgb_2
 };
 
+/// How a picture goes on beyond its borders.
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+
+/// A picture on a surface.
+struct Texture {
+  std::string name = {};
+  std::shared_ptr<const Image> image = {};  // materials share it; null: no texture
+  std::array<Wrap, 2> wrap = {};            // along u and v
+};
+
 struct Material {
   std::string name = "default";
   std::array<float, 3> rgb = {0.7F, 0.7F, 0.7F};  // linear, each in [0, 1]
   Pattern pattern = Pattern::plain;
   std::array<float, 3> rgb_2 = {0.5F, 0.5F, 0.5F};  // linear; unused by `plain`
   float pattern_size_m = 1.0F;                      // of a sheet, brick, band, cube or cloud
+  Texture texture = {};                             // times rgb
 };
+
+using Vec2f = Eigen::Vector2f;
+
+/// What a corner of a face brings of looks.
+struct CornerLook {
+  static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  Vec2f uv = {kNone, kNone};    // in its material's picture: (0, 0) upper left, (1, 1) lower right
+  Rgb8 tint = {255, 255, 255};  // sRGB; times the material's colour
+  std::uint8_t unused = 0;      // so that equal ones have equal bytes
+};
+using FaceLooks = std::vector<std::array<CornerLook, 3>>;
 
 /// Linear colour at a place, each channel in [0, 1]. `normal_world` (unit) chooses the axes of
 /// panels and bricks. Depends on its arguments alone: the same from every view.
@@ -42,7 +67,26 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> faces;  // (m, 3), counter-clockwise seen from outside
   std::vector<Material> materials = {Material{}};
   std::vector<std::uint16_t> face_material;  // (m), index into materials; empty = all 0
+  FaceLooks face_looks = {};                 // (m); empty: no textures and no colours of corners
 };
+
+/// Linear colour of a picture at (u, v), by bilinear interpolation of linear light between the
+/// centres of its pixels. Requires an image and finite u and v.
+std::array<float, 3> colour_at(const Texture& texture, const Vec2f& uv);
+
+/// Linear colour of a face at a place on it: what albedo() of its material gives, times its picture
+/// and the colours of its corners, both by barycentric coordinates. Where a texture coordinate is
+/// missing, without the picture.
+std::array<float, 3> albedo(const TriangleMesh& mesh, std::size_t face, const Vec3f& p_world_m,
+                            const Vec3f& normal_world);
+
+/// Linear mean of a face's picture and corners, times its material's rgb: what the eye makes of it
+/// from afar, by 16 samples.
+std::array<float, 3> mean_colour(const TriangleMesh& mesh, std::size_t face);
+
+/// The pictures of a mesh, each once, in order of first use; their pixels as they lie in memory.
+std::vector<const Texture*> textures_of(const TriangleMesh& mesh);
+std::size_t bytes_of(const std::vector<const Texture*>& textures);
 
 /// The material's index.
 inline std::size_t material_of(const TriangleMesh& mesh, std::size_t face) {

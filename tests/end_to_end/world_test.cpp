@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <set>
 
 #include "bench/score/cloud_metrics.hpp"
+#include "bench/score/content_cache.hpp"
 #include "bench/score/mission_score.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/fault.hpp"
@@ -14,6 +17,7 @@
 #include "tools/mission/reference.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/mission/start_pose.hpp"
+#include "tools/run/run_inputs.hpp"
 
 namespace gnbv {
 namespace {
@@ -159,6 +163,41 @@ TEST(Structure, OfTwoFilesIsTheirMergedFile) {
   EXPECT_EQ(result_sha256(two.result), result_sha256(one.result));
   EXPECT_EQ(result_sha256(file_and_files.result), result_sha256(one.result));
   EXPECT_EQ(reference_of(two), reference_of(one));
+}
+
+TEST(Structure, ItsPictureIsSeenAndHashedAndDecidesNothing) {
+  const TempFolder folder;
+  std::ofstream obj(folder.path() / "a.obj");
+  obj << "mtllib a.mtl\nusemtl a\nvt 0 0\nvt 3 0\nvt 3 3\n";
+  const TriangleMesh box = box_mesh(Box3(Vec3(-1, -0.75, 0), Vec3(1, 0.75, 1)));
+  for (const Vec3f& v : box.vertices_m) obj << fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
+  for (const auto& [a, b, c] : box.faces) {
+    obj << fmt::format("f {}/1 {}/2 {}/3\n", a + 1, b + 1, c + 1);
+  }
+  obj.close();
+  const auto flown = [&](std::vector<std::uint8_t> rgb) {
+    std::ofstream(folder.path() / "a.mtl") << "newmtl a\nKd 1 1 1\n"
+                                           << (rgb.empty() ? "" : "map_Kd a.png\n");
+    if (!rgb.empty()) write_png(Image{2, 2, std::move(rgb)}, folder.path() / "a.png");
+    return Flown(
+        smoke({"planner.termination.max_iterations=4",
+               fmt::format("structure.file.path='{}'", (folder.path() / "a.obj").string())}));
+  };
+  const Flown plain = flown({});
+  const Flown black = flown(std::vector<std::uint8_t>(12, 0));
+  std::vector<std::uint8_t> one_level_brighter(12, 0);
+  one_level_brighter[7] = 1;
+  const Flown other = flown(one_level_brighter);
+  EXPECT_EQ(result_sha256(black.result), result_sha256(plain.result));
+  EXPECT_EQ(result_sha256(other.result), result_sha256(plain.result));
+  std::set<std::string> inputs;
+  for (const Flown* one : {&plain, &black, &other}) {
+    inputs.insert(world_inputs(one->scenario, one->world).at(0).sha256);
+  }
+  EXPECT_EQ(inputs.size(), 3U);
+  Sha256 shape;
+  add_mesh(shape, plain.world.structure);
+  EXPECT_TRUE(inputs.contains(shape.hex())) << "without a picture the shape alone is hashed";
 }
 
 TEST(Structure, TurnsAboutTheOriginOfItsFile) {

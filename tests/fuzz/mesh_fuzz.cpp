@@ -1,5 +1,6 @@
 // Whatever stands in a mesh file: it is read or refused as BadInput, and what was read keeps its
 // promises. The first byte chooses the format.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +12,23 @@
 #include "sim/mesh/mesh_scene.hpp"
 #include "sim/mesh/model_parts.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
+#include "sim/mesh/texture_file.hpp"
 #include "tests/fuzz/written.hpp"
 
 namespace gnbv {
 namespace {
+
+/// A colour for every face, whatever its corners say.
+void check_looks(const TriangleMesh& mesh) {
+  GNBV_CHECK(mesh.face_looks.empty() || mesh.face_looks.size() == mesh.faces.size(), "{} looks",
+             mesh.face_looks.size());
+  for (std::size_t i = 0; i < std::min<std::size_t>(mesh.faces.size(), 100); ++i) {
+    mean_colour(mesh, i);
+    for (const float c : albedo(mesh, i, mesh.vertices_m[mesh.faces[i][0]], Vec3f::UnitZ())) {
+      GNBV_CHECK(c >= 0.0F && c <= 1.001F, "colour {}", c);
+    }
+  }
+}
 
 void check_mesh(const PolygonMesh& mesh) {
   std::uint32_t begin = 0;
@@ -27,12 +41,15 @@ void check_mesh(const PolygonMesh& mesh) {
   }
   GNBV_CHECK(mesh.face_material.empty() || mesh.face_material.size() == mesh.face_ends.size(),
              "{} materials", mesh.face_material.size());
+  GNBV_CHECK(mesh.corner_looks.empty() || mesh.corner_looks.size() == mesh.corners.size(),
+             "{} looks of {} corners", mesh.corner_looks.size(), mesh.corners.size());
   if (!mesh.not_finite.empty()) return;
   for (const Vec3& vertex : mesh.vertices) GNBV_CHECK(vertex.allFinite(), "not finite, not named");
   if (mesh.corners.size() > 3000) return;  // ears take the square of them
   const TriangleMesh triangles = triangulated(mesh);
   GNBV_CHECK(triangles.faces.size() == mesh.corners.size() - 2 * mesh.face_ends.size(),
              "{} triangles", triangles.faces.size());
+  check_looks(triangles);
 }
 
 void check_scene(const MeshScene& scene) {
@@ -46,7 +63,7 @@ void check_scene(const MeshScene& scene) {
     }
   }
   if (scene.instances.size() < 1000) {
-    assembled(scene, Eigen::Matrix4d::Identity(), "mesh");
+    check_looks(assembled(scene, Eigen::Matrix4d::Identity(), "mesh"));
   }
 }
 
@@ -70,6 +87,9 @@ void check_file(char format, std::string_view content) {
       return check_scene(read_collada(path));
     case 'g':
       return check_scene(read_gltf(path));
+    case 'i':
+      read_picture(content, 1U << 20U);
+      return;
     case 's':
       return check_scene(read_stl(path));
     case 'p':

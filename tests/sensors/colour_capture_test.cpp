@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "sensors/capture.hpp"
@@ -145,6 +146,45 @@ TEST_P(Shadow, FallsWhereTheSunIsHidden) {
 
 INSTANTIATE_TEST_SUITE_P(OfEachPartOfTheWorld, Shadow,
                          testing::Values(&World::structure, &World::obstacles, &World::terrain));
+
+TEST(ColourCapture, APictureThatFillsTheFrameIsTheFrame) {
+  // as many pixels as the camera has, on a wall that fills its view: each ray meets the centre of
+  // its pixel. Oracle: the picture's colours times the light of the same wall in white.
+  CameraConfig config;
+  config.width_px = config.height_px = 32;
+  config.fov_x_rad = config.fov_y_rad = kPi / 2.0;
+  const CameraModel camera = make_camera_model(config);
+  std::mt19937 random(46);
+  Image image{32, 32, {}};
+  for (int i = 0; i < 3 * 32 * 32; ++i) {
+    image.rgb.push_back(static_cast<std::uint8_t>(random() % 256));
+  }
+  TriangleMesh wall;  // 4 m ahead, seen from the side of its front: right is -y, up is z
+  add_rectangle(wall, {4, 4, -4}, {0, -8, 0}, {0, 0, 8});
+  paint(wall, 0, {1.0F, 1.0F, 1.0F});
+  const auto seen = [&] {
+    return capture_colour(RayScene(world_of(wall, false)), camera, 0, Isometry::Identity(), 1);
+  };
+  const ColourFrame white = seen();
+  wall.materials[0].texture = {"", std::make_shared<const Image>(image), {}};
+  const auto corner = [](float u, float v) { return CornerLook{.uv = {u, v}}; };
+  wall.face_looks = {{corner(0, 1), corner(1, 1), corner(1, 0)},
+                     {corner(0, 1), corner(1, 0), corner(0, 0)}};
+  const ColourFrame frame = seen();
+  for (int v = 0; v < 32; ++v) {
+    for (int u = 0; u < 32; ++u) {
+      const std::size_t pixel = pixel_of(camera, u, v);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto linear = [](std::uint8_t byte) {
+          return srgb_to_linear(static_cast<float>(byte) / 255.0F);
+        };
+        const float expected = linear(white.rgb[pixel][k]) * linear(image.at(u, v)[k]);
+        // the white frame is rounded to a level, and so is this one, by a table
+        EXPECT_NEAR(frame.rgb[pixel][k], 255.0F * linear_to_srgb(expected), 2.0F) << u << ' ' << v;
+      }
+    }
+  }
+}
 
 TEST(ColourCapture, GroundHasFeaturesAndSkyIsBlueOverhead) {
   const RayScene scene(world_of({}, true));

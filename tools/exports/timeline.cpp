@@ -137,7 +137,7 @@ Json handed_over(const std::vector<Row>& rows, const fs::path& file) {
 Json structure_of(const TriangleMesh& mesh, const fs::path& folder) {
   std::vector<Rgb8> colours;
   for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
-    const auto& [r, g, b] = mesh.materials[material_of(mesh, face)].rgb;
+    const auto [r, g, b] = mean_colour(mesh, face);
     colours.push_back({srgb_byte(r), srgb_byte(g), srgb_byte(b)});
   }
   return {{"vertices", handed_over(mesh.vertices_m, folder / "vertices")},

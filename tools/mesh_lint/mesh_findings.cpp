@@ -201,6 +201,27 @@ void add_face_findings(const MeshReport& report, Findings& out) {
       ""));
 }
 
+/// Which pictures were found, and what they take.
+void add_texture_finding(const TriangleMesh& mesh, Findings& out) {
+  if (mesh.face_looks.empty()) return;
+  constexpr std::size_t kMostNamed = 8;
+  const std::vector<const Texture*> textures = textures_of(mesh);
+  std::string names;
+  for (std::size_t i = 0; i < std::min(textures.size(), kMostNamed); ++i) {
+    const Image& image = *textures[i]->image;
+    names += fmt::format("{}{} {} x {}", i == 0 ? ": " : ", ", textures[i]->name, image.width_px,
+                         image.height_px);
+  }
+  if (textures.size() > kMostNamed) names += fmt::format(", {} more", textures.size() - kMostNamed);
+  const std::size_t of_corners = mesh.face_looks.size() * sizeof(mesh.face_looks[0]);
+  out.push_back({"textures", Severity::ok,
+                 fmt::format("{}, {:.1f} MB of pixels, and {:.1f} MB of what corners look like{}",
+                             counted(textures.size(), "picture", "pictures"),
+                             1e-6 * static_cast<double>(bytes_of(textures)),
+                             1e-6 * static_cast<double>(of_corners), names),
+                 ""});
+}
+
 Finding vertices_finding(const MeshReport& report) {
   const MeshLint& lint = report.lint;
   const double slack_m = 1e-3;  // as in load_world()
@@ -280,6 +301,7 @@ std::vector<Finding> findings_of(const MeshReport& report, const Scenario& scena
   if (const std::string note = clearing_note(scenario); !note.empty()) {
     out.push_back({"returns", Severity::warning, note, flag("planner.map.no_return=unknown")});
   }
+  add_texture_finding(report.reading.mesh, out);
   out.push_back(vertices_finding(report));
   add_face_findings(report, out);
   add_view_findings(report, out);

@@ -147,4 +147,22 @@ page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::
 /// area dropped) that has at most `max_faces`. No vertex moves outside of the mesh's bounds.
 TriangleMesh with_fewer_faces(const TriangleMesh& mesh, std::size_t max_faces);
 
+/// A mesh with pictures, its edges cut in two until it has about `faces` of about the same size, or
+/// `max_faces`: fine enough to show its pictures by colours of vertices. Others stay as they are.
+TriangleMesh cut_finer(TriangleMesh mesh, std::size_t faces, std::size_t max_faces);
+
+/// Colours of a mesh with pictures by place: the mean of the faces that meet there.
+class VertexColours {
+ public:
+  explicit VertexColours(const TriangleMesh& mesh);
+
+  /// Linear, (n, 3) shares of 65535, of vertices of that mesh.
+  std::vector<std::uint16_t> of(std::span<const Vec3f> vertices_m);
+  bool empty() const { return colours_.empty(); }
+
+ private:
+  PositionIndices places_;
+  std::vector<std::uint16_t> colours_;
+};
+
 }  // namespace gnbv

@@ -55,11 +55,12 @@ GNBV_PAGE_FIELDS(MeshPart, rgb, corners)
 
 struct MeshData {
   Points vertices = {};
-  std::size_t all_faces = 0;  // before thinning
-  std::vector<MeshPart> parts = {};
+  std::optional<Array<std::uint16_t, 3>> colours = {};  // of vertices, linear shares of 65535
+  std::size_t all_faces = 0;                            // before thinning
+  std::vector<MeshPart> parts = {};                     // with `colours`, white
   std::optional<SurfaceData> surface = {};
 };
-GNBV_PAGE_FIELDS(MeshData, vertices, all_faces, parts, surface)
+GNBV_PAGE_FIELDS(MeshData, vertices, colours, all_faces, parts, surface)
 
 struct CameraData {
   std::string name = {};

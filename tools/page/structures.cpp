@@ -14,7 +14,8 @@ constexpr std::size_t kAllSurfaceBytes = 6'000'000;
 constexpr std::size_t kVoxelBytes = 6;
 constexpr std::size_t kFoundBytes = 2;  // a voxel and run
 constexpr std::size_t kMaxFaces = 120'000;
-constexpr std::size_t kFewFaces = 100;  // are never too many
+constexpr std::size_t kPaintedFaces = 40'000;  // of a structure with pictures
+constexpr std::size_t kFewFaces = 100;         // are never too many
 
 /// Equal for runs of the same structure among the same obstacles on the same terrain, that are
 /// scored alike.
@@ -69,8 +70,9 @@ Structures::OfRun as_flown(const Structures::OfRun& structure, const RunRecord& 
   }
 }
 
-page::MeshData pack_whole(const TriangleMesh& mesh, page::Arrays& arrays) {
+page::MeshData pack_whole(const TriangleMesh& mesh, VertexColours& colours, page::Arrays& arrays) {
   page::MeshData out{.vertices = arrays.add_points(mesh.vertices_m)};
+  if (!colours.empty()) out.colours = arrays.add<3>(colours.of(mesh.vertices_m));
   std::vector<std::vector<std::uint32_t>> corners(mesh.materials.size());
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     auto& of_part = corners[material_of(mesh, i)];
@@ -83,6 +85,7 @@ page::MeshData pack_whole(const TriangleMesh& mesh, page::Arrays& arrays) {
     for (std::size_t k = 0; k < 3; ++k) {
       const bool is_plain = material.pattern == Pattern::plain;
       part.rgb[k] = is_plain ? material.rgb[k] : 0.7F * material.rgb[k] + 0.3F * material.rgb_2[k];
+      if (out.colours) part.rgb[k] = 1.0;
     }
     out.parts.push_back(part);
   }
@@ -93,9 +96,11 @@ page::MeshData pack_whole(const TriangleMesh& mesh, page::Arrays& arrays) {
 
 page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::Arrays& arrays) {
   const std::size_t before = arrays.bytes().size();
-  for (TriangleMesh small = with_fewer_faces(mesh, kMaxFaces);;
+  const TriangleMesh whole = cut_finer(mesh, kPaintedFaces, kMaxFaces);
+  VertexColours colours(whole);
+  for (TriangleMesh small = with_fewer_faces(whole, kMaxFaces);;
        small = with_fewer_faces(mesh, small.faces.size() / 4 * 3)) {
-    page::MeshData out = pack_whole(small, arrays);
+    page::MeshData out = pack_whole(small, colours, arrays);
     out.all_faces = mesh.faces.size();
     const bool fits = arrays.bytes().size() - before <= max_bytes;
     if (fits || small.faces.size() <= kFewFaces) return out;

@@ -15,9 +15,25 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// What cameras see of it beside its shape, where it has pictures or colours of corners.
+void add_looks(Sha256& sha, const TriangleMesh& mesh) {
+  if (mesh.face_looks.empty()) return;
+  static_assert(sizeof(CornerLook) == 12);
+  sha.add_bytes(std::as_bytes(std::span(mesh.face_looks)));
+  sha.add(std::span<const std::uint16_t>(mesh.face_material));
+  for (const Material& material : mesh.materials) {
+    sha.add(std::span<const float>(material.rgb));
+    for (const Wrap wrap : material.texture.wrap) sha.add(static_cast<std::uint8_t>(wrap));
+    if (!material.texture.image) continue;
+    sha.add(material.texture.image->width_px);
+    sha.add(std::span<const std::uint8_t>(material.texture.image->rgb));
+  }
+}
+
 RunInput mesh_input(const char* key, const std::string& name, const TriangleMesh& mesh) {
   Sha256 sha;
   add_mesh(sha, mesh);
+  add_looks(sha, mesh);
   return {key, name, sha.hex()};
 }
 

@@ -15,7 +15,8 @@ namespace gnbv {
 struct RunInput {
   std::string key;     // of the scenario: structure, obstacles, terrain, planner.profiling.file
   std::string name;    // the file, or what is built in
-  std::string sha256;  // of a mesh the vertices and faces as they are flown, of a file its bytes
+  std::string sha256;  // of a mesh the vertices and faces as they are flown, with pictures if any,
+                       // of a file its bytes
 };
 
 /// The meshes of the world.

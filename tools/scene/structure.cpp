@@ -124,8 +124,8 @@ PaintItem paint_of_structure(const RayScene& scene, std::size_t structure_faces,
         if (hit.face < 0 || static_cast<std::size_t>(hit.face) >= structure_faces) continue;
         const Vec3f n = scene.normal_world(hit.face);
         const Vec3f p_world_m = eye_m + hit.distance_m * directions[i];
-        const auto [r, g, b] = albedo(scene.material(hit.face), p_world_m,
-                                      n.dot(directions[i]) > 0.0F ? Vec3f(-n) : n);
+        const auto [r, g, b] =
+            scene.albedo(hit.face, p_world_m, n.dot(directions[i]) > 0.0F ? Vec3f(-n) : n);
         sum += Vec3f(r, g, b);
         count += 1.0F;
       }

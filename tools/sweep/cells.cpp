@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/sha256.hpp"
@@ -51,17 +50,28 @@ class Resolver {
   std::map<std::string, StructureExtent> extents_;
 };
 
+/// Material libraries, buffers, pictures, the meshes of a model. None where the mesh cannot be
+/// read: its mission will say why.
+std::vector<std::filesystem::path> files_beside(const std::string& mesh) {
+  const std::string extension = extension_of(mesh);
+  if (extension == ".ply" || extension == ".stl") return {};
+  try {
+    return read_mesh({.path = mesh}).files;
+  } catch (const BadInput&) {
+    return {};
+  }
+}
+
 }  // namespace
 
-std::string CellNamer::content_path(const std::string& path) {
+std::string CellNamer::content_path(const std::string& path, bool is_mesh) {
   if (path.empty()) return path;
   std::string& known = content_paths_[path];
   if (known.empty()) {
     Sha256 hash;
-    if (is_model(path)) {
-      add_mesh(hash, read_mesh({.path = path}).mesh);
-    } else {
-      hash.add(read_file(path));
+    hash.add(read_file(is_mesh ? model_file_of(path) : std::filesystem::path(path)));
+    for (const auto& file : is_mesh ? files_beside(path) : std::vector<std::filesystem::path>{}) {
+      hash.add(read_file(file));
     }
     known = "/sha256/" + hash.hex();  // absolute: to_yaml() puts the current folder before others
   }
@@ -70,11 +80,12 @@ std::string CellNamer::content_path(const std::string& path) {
 
 std::string CellNamer::id_of(const Scenario& scenario) {
   Scenario named = scenario;
-  for (const MeshFileKey& mesh : mesh_files(named)) mesh.file->path = content_path(mesh.file->path);
+  for (const MeshFileKey& mesh : mesh_files(named))
+    mesh.file->path = content_path(mesh.file->path, true);
   named.planner.utility.python.label.clear();
   named.planner.utility.python.file.clear();
   std::string& profile = named.planner.profiling.file;
-  profile = content_path(profile);
+  profile = content_path(profile, false);
   Sha256 hash;
   hash.add("gnbv cell 2\n" + version_ + "\n" + source_ + "\n");
   hash.add(to_yaml(named));

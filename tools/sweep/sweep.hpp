@@ -51,14 +51,14 @@ class CellNamer {
 
   /// 16 hexadecimal digits of the SHA-256 of the program (its version and flying_source_id()) and
   /// the resolved scenario, in which files (a mesh, a saved profile) are named by the SHA-256 of
-  /// their content, wherever they lie, and a function of the user's own by its text alone. Two
-  /// builds of the same sources share their cells, any change of what flies a mission does not. A
-  /// file that the mesh refers to (the .bin of a .gltf) is not followed. Throws BadInput naming a
-  /// file that cannot be read.
+  /// their content, wherever they lie, and that of the files a mesh refers to (libraries, buffers,
+  /// pictures), and a function of the user's own by its text alone. Two builds of the same sources
+  /// share their cells, any change of what flies a mission does not. Throws BadInput naming a file
+  /// that cannot be read.
   std::string id_of(const Scenario& scenario);
 
  private:
-  std::string content_path(const std::string& path);
+  std::string content_path(const std::string& path, bool is_mesh);
 
   std::string version_;
   std::string source_;

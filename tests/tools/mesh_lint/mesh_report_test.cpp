@@ -8,6 +8,7 @@
 
 #include "assets/catalog.hpp"
 #include "scenarios/load.hpp"
+#include "sim/core/image.hpp"
 #include "tests/bench/shapes.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -34,6 +35,21 @@ TEST(OutsideView, ABoxInABoxIsHidden) {
   EXPECT_NEAR(view.area_m2, 120.0, 1e-4);
   EXPECT_NEAR(view.hidden_area_m2, 24.0, 1e-4);
   EXPECT_EQ(view.from_behind.count, 0U);
+}
+
+TEST(MeshReport, NamesThePicturesThatWereFoundAndTheirMemory) {
+  const TempFolder folder;
+  write_png(Image{3, 2, std::vector<std::uint8_t>(18)}, folder.path() / "p.png");
+  std::ofstream(folder.path() / "a.mtl") << "newmtl a\nmap_Kd p.png\nnewmtl b\nmap_Kd none.png\n";
+  std::ofstream(folder.path() / "a.obj")
+      << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n"
+         "usemtl b\nf 1/1 3/1 2/1\n";
+  Scenario scenario = load_scenario("smoke", {});
+  scenario.structure.file.path = (folder.path() / "a.obj").string();
+  const std::string text = terminal_text(report_on_mesh(scenario, false, 1));
+  EXPECT_NE(text.find("1 picture, 0.0 MB of pixels, and 0.0 MB"), text.npos) << text;
+  EXPECT_NE(text.find("p.png 3 x 2"), text.npos) << text;
+  EXPECT_NE(text.find("plain colours of their materials: none.png"), text.npos) << text;
 }
 
 TEST(OutsideView, FacesTurnedInwardsAreTheOnesThatWereTurned) {

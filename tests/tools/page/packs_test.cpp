@@ -2,6 +2,7 @@
 // and its budget, and nothing depends on the number of threads.
 #include "tools/page/packs.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +11,11 @@
 
 #include "assets/catalog.hpp"
 #include "bench/score/coverage_curve.hpp"
+#include "sim/mesh/texture_file.hpp"
 #include "tests/bench/shapes.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/tools/page/page_arrays.hpp"
+#include "tools/page/jpeg.hpp"
 
 namespace gnbv {
 namespace {
@@ -76,6 +80,86 @@ TEST(Thinning, KeepsTheBudgetAndTheFirstPointOfEachCell) {
   EXPECT_EQ(first_points(few, 0.1), (std::vector<std::size_t>{0, 1, 3}));
   EXPECT_EQ(thinned(few, 5, 0.1).kept.size(), 5U);
   EXPECT_EQ(thinned(few, 5, 0.1).cell_m, 0.0);
+}
+
+/// A square with a picture of 8 x 8 squares, black and white, and a plain one beside it.
+TriangleMesh chessboard() {
+  Image image{64, 64, {}};
+  for (int i = 0; i < 64 * 64; ++i) {
+    image.rgb.insert(image.rgb.end(), 3, (i / 8 + i / 512) % 2 == 0 ? 255 : 0);
+  }
+  TriangleMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  mesh.materials[0] = {.rgb = {1, 1, 1}, .texture = {"", std::make_shared<const Image>(image), {}}};
+  const auto corner = [](float u, float v) { return CornerLook{.uv = {u, v}}; };
+  mesh.face_looks = {{corner(0, 0), corner(1, 0), corner(1, 1)},
+                     {corner(0, 0), corner(1, 1), corner(0, 1)}};
+  return mesh;
+}
+
+TEST(PaintedMesh, IsCutUntilItsVerticesShowThePicture) {
+  const TriangleMesh coarse = chessboard();
+  const TriangleMesh fine = cut_finer(coarse, 20'000, 100'000);
+  EXPECT_GT(fine.faces.size(), 5'000U);
+  EXPECT_LE(fine.faces.size(), 100'000U);
+  EXPECT_NEAR(surface_area_m2(fine), 64.0, 1e-3);
+  VertexColours colours(fine);
+  const std::vector<std::uint16_t> of = colours.of(fine.vertices_m);
+  std::size_t wrong = 0, inside = 0;
+  for (std::size_t i = 0; i < fine.vertices_m.size(); ++i) {
+    const Vec3f& p = fine.vertices_m[i];
+    const float x = p.x() - std::floor(p.x()), y = p.y() - std::floor(p.y());
+    if (std::min(std::min(x, 1.0F - x), std::min(y, 1.0F - y)) < 0.25F) continue;  // of the border
+    const bool is_white = (static_cast<int>(p.x()) + static_cast<int>(p.y())) % 2 == 0;
+    ++inside;
+    if (of[3 * i] != (is_white ? 65535 : 0)) ++wrong;
+  }
+  EXPECT_GT(inside, 1000U);
+  EXPECT_EQ(wrong, 0U);
+  // no edge is cut on one side alone: the same cut of every edge, each of two faces or on the rim
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& face : fine.faces) {
+    for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax({face[k], face[(k + 1) % 3]})];
+  }
+  for (const auto& [edge, count] : edges) {
+    const auto is_on_rim = [&](std::uint32_t v) {
+      const Vec3f& p = fine.vertices_m[v];
+      return p.x() == 0 || p.x() == 8 || p.y() == 0 || p.y() == 8;
+    };
+    ASSERT_TRUE(count == 2 || (is_on_rim(edge.first) && is_on_rim(edge.second)));
+  }
+  const TriangleMesh plain = make_builtin_structure("smoke");
+  EXPECT_EQ(cut_finer(plain, 20'000, 100'000).faces, plain.faces);
+  page::Arrays arrays;
+  const page::MeshData packed = pack_mesh(coarse, 4'000'000, arrays);
+  EXPECT_EQ(packed.all_faces, 2U);
+  ASSERT_TRUE(packed.colours);
+  EXPECT_EQ(packed.colours->rows, packed.vertices.rows);
+}
+
+TEST(Jpeg, IsReadAsItWasWritten) {
+  Image image{40, 24, {}};
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      for (const int c : {6 * x, 10 * y, 128}) image.rgb.push_back(static_cast<std::uint8_t>(c));
+    }
+  }
+  const std::vector<std::uint8_t> bytes = jpeg_bytes(image, 98);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const Image read = read_picture(text, 960);
+  ASSERT_EQ(std::pair(read.width_px, read.height_px), std::pair(40, 24));
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    EXPECT_NEAR(read.rgb[i], image.rgb[i], 12) << i;  // chroma is halved
+  }
+  const auto fault = [](std::string_view of, std::size_t most_px) {
+    return test::fault_of([&] { read_picture(of, most_px); });
+  };
+  EXPECT_THAT(fault(text, 959), testing::HasSubstr("too large (40 x 24"));
+  for (std::size_t cut = 3; cut + 2 < text.size(); cut += 37) {
+    EXPECT_THAT(fault(text.substr(0, cut), 960), testing::HasSubstr("damaged")) << cut;
+  }
+  EXPECT_EQ(read_picture(std::string(text) + "more", 960).rgb, read.rgb);
 }
 
 TEST(Thinning, AMeshKeepsItsPlaceItsMaterialsAndItsBudget) {

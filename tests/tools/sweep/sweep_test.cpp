@@ -8,6 +8,7 @@
 
 #include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/image.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -122,6 +123,47 @@ TEST_F(SweepFile, APresetDoesNotUndoWhatIsSetBesideIt) {
     EXPECT_EQ(cell.resolved.planner.fvs.tries, 7) << cell.method;
     EXPECT_EQ(cell.resolved.planner.fvs.pool_clusters, cell.method == "released");
   }
+}
+
+TEST_F(SweepFile, TheIdIsThatOfWhatAMeshRefersToAsWell) {
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(temp_.path() / name, std::ios::binary) << text;
+  };
+  const auto save = [&](std::uint8_t red) {
+    write_png(Image{1, 1, {red, 0, 0}}, temp_.path() / "p.png");
+  };
+  write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  write("m.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+"nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "m.bin"}]})");
+  const auto points = [](float x) {
+    std::string bytes;
+    for (const float value : {0.0F, 0.0F, 0.0F, x, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F}) {
+      append_bytes(bytes, value);
+    }
+    return bytes;
+  };
+  const auto id = [&](const std::string& mesh) {
+    return cells_of(read("scenarios: {scenario: smoke, mesh: " + mesh + "}\n"))[0].id;
+  };
+  std::set<std::string> ids = {id("m.obj")};  // nothing of it is there yet
+  for (const std::string colour : {"1 1 1", "1 0 0"}) {
+    write("m.mtl", "newmtl a\nKd " + colour + "\nmap_Kd p.png\n");
+    ids.insert(id("m.obj"));
+    for (const int red : {10, 20}) {
+      save(static_cast<std::uint8_t>(red));
+      ids.insert(id("m.obj"));
+    }
+  }
+  EXPECT_EQ(ids.size(), 6U);  // with the second library the picture is there from the start
+  save(10);
+  write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd p.png\n");
+  EXPECT_TRUE(ids.contains(id("m.obj")));
+  write("m.bin", points(1.0F));
+  const std::string of_gltf = id("m.gltf");
+  write("m.bin", points(2.0F));
+  EXPECT_NE(id("m.gltf"), of_gltf);
 }
 
 TEST_F(SweepFile, TheIdIsThatOfTheContent) {

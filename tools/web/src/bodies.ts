@@ -10,13 +10,17 @@ export class Structure {
   readonly object = new three.Group();
   private readonly meshes: three.Mesh<three.BufferGeometry, three.MeshLambertMaterial>[];
 
-  constructor({ vertices, parts }: MeshData) {
+  constructor({ vertices, colours, parts }: MeshData) {
     const position = new three.BufferAttribute(vertices, 3);
-    this.meshes = parts.map(({ rgb, corners }) => new three.Mesh(
-      new three.BufferGeometry().setAttribute("position", position)
-        .setIndex(new three.BufferAttribute(corners, 1)),
-      new three.MeshLambertMaterial({ color: new three.Color(...rgb), flatShading: true,
-        side: three.DoubleSide, forceSinglePass: true }))); // a ghost is too faint for its order
+    const colour = colours && new three.BufferAttribute(colours, 3, true);
+    this.meshes = parts.map(({ rgb, corners }) => {
+      const geometry = new three.BufferGeometry().setAttribute("position", position)
+        .setIndex(new three.BufferAttribute(corners, 1));
+      if (colour) geometry.setAttribute("color", colour);
+      return new three.Mesh(geometry, new three.MeshLambertMaterial({
+        color: new three.Color(...rgb), vertexColors: colour !== null, flatShading: true,
+        side: three.DoubleSide, forceSinglePass: true })); // a ghost is too faint for its order
+    });
     this.object.add(...this.meshes);
   }
 
