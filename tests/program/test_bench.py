@@ -443,3 +443,9 @@ def test_held_out_seeds_follow_from_the_commit():
     for kind, seed, draw in held_out:
         digits = hashlib.sha256(f"{commit} {kind} {draw}".encode()).hexdigest()[:8]
         assert int(seed) == int(digits, 16)
+
+
+def test_the_standings_of_the_rules_are_those_of_the_entries(gnbv):
+    entries = sorted(map(str, (REPOSITORY / "suite/entries").glob("*.zip")))
+    table = gnbv("bench", "table", *entries, "--format", "markdown").check({0}).out
+    assert table.strip() in (REPOSITORY / "docs/suite.md").read_text()

@@ -187,6 +187,9 @@ void add_run_command(CLI::App& app) {
   add_quiet_option(*command, mission.quiet);
   command->add_flag("--resume", mission.resume, "continue the interrupted run in --out");
   command->add_flag("--frames", mission.frames, "also write what the cameras saw, to frames/");
+  command->add_flag("--round-views", mission.rounds_views,
+                    "of a planner of yours in Python: angles as files hold them, so that its views "
+                    "alone fly the same again, bit by bit");
   command->add_flag("--candidates", mission.candidates,
                     "also write the terms of every candidate, or why it was rejected, and the "
                     "voxels that each view was chosen for");

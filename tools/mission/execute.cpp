@@ -244,7 +244,8 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     }
     std::optional<UserPlannerLink> planner;
     if (asks_planner) {
-      planner.emplace(in_file ? *in_file : *options.planner, scenario).connect(inputs);
+      planner.emplace(in_file ? *in_file : *options.planner, scenario, options.rounds_views)
+          .connect(inputs);
     }
     if (options.observer != nullptr) inputs.observers.push_back(options.observer);
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);

@@ -26,6 +26,7 @@ struct MissionOptions {
   std::function<std::string()> views_fault = {};  // why no more come, where that is a failure
   CeilingFrom ceiling = CeilingFrom::cache;
   const UserPlanner* planner = nullptr;  // asked for the views; the utility is `route`
+  bool rounds_views = false;             // of a planner of the user's own: UserPlannerLink
   MissionObserver* observer = nullptr;   // told last
   std::function<void(double share_done, const std::string& note)> on_progress = {};  // may be empty
   std::function<bool()> should_stop = [] { return false; };  // asked as Ctrl-C is

@@ -18,13 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The parts of [NAME=]FILE.py[:FUNCTION], or of [NAME=]UTILITY, empty where they are not said.
-struct Named {
+struct FunctionWords {
   std::string name, file, function;
   std::string utility = {};
 };
 
-Named parts_of(std::string_view text) {
-  Named parts;
+FunctionWords parts_of(std::string_view text) {
+  FunctionWords parts;
   const std::size_t equals = text.find_first_of("=/.");  // a NAME is one word
   if (equals != std::string_view::npos && text[equals] == '=') {
     parts.name = text.substr(0, equals);
@@ -93,7 +93,7 @@ std::vector<Definition> definitions_in(const std::string& source) {
   return all;
 }
 
-Definition chosen(const Named& named, const std::string& source) {
+Definition chosen(const FunctionWords& named, const std::string& source) {
   std::vector<Definition> all = definitions_in(source);
   if (!named.function.empty()) {
     const auto at = std::find_if(all.begin(), all.end(), [&](const Definition& definition) {
@@ -123,7 +123,7 @@ std::vector<Override> overrides_of(const std::vector<std::string>& sets) {
 NamedMethod named_method(const std::string& text, const std::string& option,
                          const fs::path& folder) {
   const std::string given_by = option + " " + text;
-  const Named named = parts_of(text);
+  const FunctionWords named = parts_of(text);
   const auto set = [&](const std::string& key, const std::string& value) {
     return Override{.text = fmt::format("planner.utility.{}={}", key, value), .source = given_by};
   };

@@ -1,11 +1,15 @@
 #include "tools/mission/user_planner.hpp"
 
+#include "scenarios/values.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
 
-UserPlannerLink::UserPlannerLink(const UserPlanner& planner, const Scenario& scenario)
-    : planner_(planner), scenario_(scenario), given_(scenario.planner.routes.views) {}
+UserPlannerLink::UserPlannerLink(const UserPlanner& planner, const Scenario& scenario, bool rounds)
+    : planner_(planner),
+      rounds_(rounds),
+      scenario_(scenario),
+      given_(scenario.planner.routes.views) {}
 
 void UserPlannerLink::connect(MissionInputs& inputs) {
   inputs.observers.push_back(this);
@@ -24,7 +28,11 @@ std::optional<ViewPose> UserPlannerLink::next(const std::function<bool()>& shoul
   std::vector<ViewPose>& views = scenario_.planner.routes.views;
   if (should_stop() || views.size() >= kMostUserViews) return std::nullopt;
   GNBV_CHECK(belief_ != nullptr, "asked before the first view");
-  const std::optional<ViewPose> view = planner_.plan(*belief_);
+  std::optional<ViewPose> view = planner_.plan(*belief_);
+  if (view && rounds_) {
+    view->yaw_rad = written_angle_rad(view->yaw_rad);
+    view->gimbal_pitch_rad = written_angle_rad(view->gimbal_pitch_rad);
+  }
   if (view) views.push_back(*view);
   return view;
 }

@@ -29,8 +29,9 @@ struct UserPlanner {
 /// Lets a mission ask the planner.
 class UserPlannerLink final : public MissionObserver {
  public:
-  /// Everything referred to stays with the caller.
-  UserPlannerLink(const UserPlanner& planner, const Scenario& scenario);
+  /// Everything referred to stays with the caller. `rounds`: angles become the nearest ones that
+  /// files hold, in degrees, so that who flies the views alone flies the same, bit by bit.
+  UserPlannerLink(const UserPlanner& planner, const Scenario& scenario, bool rounds = false);
 
   /// Lets the mission ask here. `inputs` is good as long as this lives.
   void connect(MissionInputs& inputs);
@@ -45,6 +46,7 @@ class UserPlannerLink final : public MissionObserver {
   std::optional<ViewPose> next(const std::function<bool()>& should_stop);
 
   const UserPlanner& planner_;
+  const bool rounds_;
   Scenario scenario_;  // with all views
   const std::vector<ViewPose> given_;
   const Belief* belief_ = nullptr;  // the mission's

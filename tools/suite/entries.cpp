@@ -50,7 +50,8 @@ void fly_entry(const fs::path& folder, const EntryFolder& entry,
                const std::vector<SuiteTask>& tasks, const SuiteFlights& flights) {
   TaskScenarios scenarios(entry.suite, folder / kMeshes);
   const std::vector<Cell> cells = cells_of_entry(entry.suite, tasks, entry.planner, scenarios);
-  if (!entry.planner.run_arguments.empty()) drop_half_flown(folder, cells);
+  const auto& arguments = entry.planner.run_arguments;
+  if (!arguments.empty() && arguments.front() == "--views") drop_half_flown(folder, cells);
   const std::vector<CellOutcome> outcomes =
       run_cells(cells, {.folder = folder,
                         .jobs = flights.jobs,

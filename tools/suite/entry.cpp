@@ -83,7 +83,10 @@ EntryPlanner entry_planner(const std::string& text, const std::vector<std::strin
           "is a function of two parameters (docs/tutorials/planner-python.md)",
           text));
     }
-    planner = {.name = method.name, .kind = EntryKind::views, .settings = method.overrides};
+    planner = {.name = method.name,
+               .kind = EntryKind::views,
+               .settings = method.overrides,
+               .run_arguments = {"--round-views"}};
   } else {
     throw BadInput(fmt::format(
         "--planner {}: is no planner of gnbv ({}allowed: {}), no FILE.py:FUNCTION and no command "
