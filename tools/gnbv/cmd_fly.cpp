@@ -119,11 +119,11 @@ ViewPose ground_start(const Scenario& scenario, const World& world, const RaySce
   const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), ground_m + half_height_m);
   constexpr unsigned kStands = kStructurePart | kObstaclePart;
   if (scene.distance_m(kStands, on_ground_world_m, clearance_m) >= clearance_m) return start;
-  throw BadInput(
-      fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
-                  "start, is within "
-                  "{:.2f} m of what stands there, which its hull takes: move the start away from it",
-                  start.p_world_m.x(), start.p_world_m.y(), clearance_m));
+  throw BadInput(fmt::format(
+      "start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
+      "start, is within "
+      "{:.2f} m of what stands there, which its hull takes: move the start away from it",
+      start.p_world_m.x(), start.p_world_m.y(), clearance_m));
 }
 
 void warn_beyond_loopback(const mavlink::Meeting& meeting) {
@@ -205,20 +205,20 @@ void add_fly_command(CLI::App& app) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* const command = app.add_subcommand("fly", "serve the vehicle to a MAVLink client");
   command->footer(
-      "The vehicle stands on the ground at the scenario's start, disarmed, as component 1 of the\n"
-      "system that vehicle.system_id says,\n"
-      "and speaks like PX4: first, to port 14540 of this machine, where MAVSDK and pymavlink "
-      "wait,\n"
-      "and hears nobody else (QGroundControl waits at udpout://127.0.0.1:14550). With udpin:// it\n"
-      "waits itself, and answers the first client that sends it a good frame: while the vehicle "
-      "is\n"
-      "armed nobody else is heard; while it is not, another address is answered when that client\n"
-      "was silent for 5 s, or asks for something when the client asked for nothing in 5 s.\n"
-      "Given several times, --mavlink serves a client at each: a ground station beside a program.\n"
-      "Local NED counts from where the vehicle stands, as PX4's does, or with --local-origin "
+      "The vehicle stands on the ground at the scenario's start, disarmed. It is component 1 of "
+      "the\n"
+      "system that vehicle.system_id names.\n\n"
+      "udpout: the vehicle speaks first, as PX4 does. MAVSDK and pymavlink wait at port 14540 of\n"
+      "this machine, QGroundControl at 14550. It hears nobody else.\n\n"
+      "udpin: the vehicle waits, and answers the first client that sends it a good frame. While "
+      "it\n"
+      "is armed it hears nobody else. While it is not, it turns to another client after the first\n"
+      "was silent for 5 s, or when another asks for something and the first asked for nothing in\n"
+      "5 s.\n\n"
+      "Local NED counts from where the vehicle stands, as PX4's does. With --local-origin "
       "scenario\n"
-      "from the scenario's origin: north is y, east is x; on the globe that lies at 47.397742 N\n"
-      "8.545594 E, its z = 0 at sea level. Missions are uploaded, and flown in mode MISSION.");
+      "it counts from the scenario's origin: north is y, east is x. That origin lies at\n"
+      "47.397742 N 8.545594 E, with z = 0 at sea level.");
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->urls,
