@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -104,7 +105,10 @@ std::string TaskScenarios::mesh_of(const SuiteStructure& structure) {
   const fs::path file = meshes_ / (structure.name + ".ply");
   if (!fs::exists(file)) {
     make_folder(meshes_);
-    write_mesh(make_random_structure(structure.seed, structure.random), file);
+    // by rename: other processes may share the folder
+    const fs::path part = meshes_ / fmt::format("{}.{}.ply", structure.name, getpid());
+    write_mesh(make_random_structure(structure.seed, structure.random), part);
+    fs::rename(part, file);
   }
   return file.string();
 }
