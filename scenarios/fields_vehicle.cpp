@@ -246,7 +246,11 @@ void fields(const Keys& key, CameraConfig& c) {
   key.path("calibration", calibration,
            "File of OpenCV, Kalibr (FILE#cam1: its second camera) or ROS camera_info, whose image "
            "size, focal lengths, centre and distortion are these keys' values; a run keeps those.");
-  if (!calibration.empty()) read_calibration(calibration, c);
+  try {
+    if (!calibration.empty()) read_calibration(calibration, c);
+  } catch (const BadInput& wrong) {
+    key.refuse("calibration", wrong.what());
+  }
   const Keys of_angles = key.only_if(c.fx_px == 0.0, ".fx_px");
   of_angles.angle("fov_x_deg", c.fov_x_rad, {1, 170},
                   "Horizontal field of view; given alone, pixels are square.");
