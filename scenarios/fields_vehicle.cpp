@@ -267,8 +267,7 @@ void fields(const Keys& key, CameraConfig& c) {
   key("range_max_m", c.range_max_m, positive(1e3), "Along the optical axis; none is farther.");
   key("return_max_m", c.return_max_m, {0, 1e3},
       "Deeper surface gives no return, and planner.map.no_return says what that means; 0: all up "
-      "to "
-      "range_max_m returns.");
+      "to range_max_m returns.");
   key("rate_hz", c.rate_hz, {0, 250},
       "Frames per second in flight, at most one per tick; 0: only one at each view.");
   key("drop_probability", c.drop_probability, {0, 1}, "Of losing a frame, at a view or in flight.");
@@ -280,12 +279,10 @@ void fields(const Keys& key, LidarConfig& c) {
   preset(key, c, "lidars");
   key.word("name", c.name, "Name of the LIDAR, unlike that of any other.");
   using enum LidarPattern;
+  using enum LidarLooks;
   key("pattern", c.pattern, {{fan, "fan"}, {spinning, "spinning"}, {rosette, "rosette"}},
       "fan: one plane; spinning: rings; rosette: other points in each sweep.");
-  key("looks", c.looks,
-      {{LidarLooks::profile, "profile"},
-       {LidarLooks::views, "views"},
-       {LidarLooks::flight, "flight"}},
+  key("looks", c.looks, {{profile, "profile"}, {views, "views"}, {flight, "flight"}},
       "profile: scans that alone; views: a sweep at each view, too; flight: and at rate_hz on the "
       "way. Without cameras profile is views.");
   key("beams", c.beams, {1, 1e5}, "Beams per sweep, of a fan spread evenly; spinning: per ring.");

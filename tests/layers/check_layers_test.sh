@@ -35,7 +35,7 @@ for truth in sim/mesh/world.hpp sim/mesh/triangle_mesh.hpp sim/mesh/mesh_file.hp
   forbidden planner/map/occupancy_grid.hpp "#include \"$truth\""
 done
 for believed in planner/view/visibility.hpp sim/core/pose.hpp sensors/camera_model.hpp \
-  sensors/lidar_model.hpp sensors/frames.hpp; do
+  sensors/lidar_model.hpp sensors/sights.hpp sensors/frames.hpp; do
   allowed planner/planners.cpp "#include \"$believed\""
 done
 # nor by way of the sensor types it reads

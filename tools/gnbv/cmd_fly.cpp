@@ -119,11 +119,11 @@ ViewPose ground_start(const Scenario& scenario, const World& world, const RaySce
   const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), ground_m + half_height_m);
   constexpr unsigned kStands = kStructurePart | kObstaclePart;
   if (scene.distance_m(kStands, on_ground_world_m, clearance_m) >= clearance_m) return start;
-  throw BadInput(
-      fmt::format("start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
-                  "start, is within "
-                  "{:.2f} m of what stands there, which its hull takes: move the start away from it",
-                  start.p_world_m.x(), start.p_world_m.y(), clearance_m));
+  throw BadInput(fmt::format(
+      "start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
+      "start, is within "
+      "{:.2f} m of what stands there, which its hull takes: move the start away from it",
+      start.p_world_m.x(), start.p_world_m.y(), clearance_m));
 }
 
 void warn_beyond_loopback(const mavlink::Meeting& meeting) {
