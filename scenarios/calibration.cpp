@@ -235,7 +235,7 @@ void read_calibration(const std::string& file, CameraConfig& camera) {
   const std::string path = names_camera ? file.substr(0, at) : file;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    throw BadInput(fmt::format("cameras.N.calibration: value '{}': there is no such file", path));
+    throw BadInput(fmt::format("{}: there is no such file", path));
   }
   const std::string text = read_file(path);
   const bool is_xml = text.find_first_not_of(" \t\r\n\xef\xbb\xbf") != text.npos &&

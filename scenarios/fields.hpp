@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "scenarios/scenario.hpp"
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 
@@ -94,6 +95,10 @@ class FieldVisitor {
   /// Of a list: how many items at their defaults replace those that it has; nothing: none do.
   virtual std::optional<std::size_t> begin(const Group&) { return std::nullopt; }
   virtual void end(const Group&) {}
+  /// Of a key that was shown before: what is wrong with its value.
+  virtual void refuse(std::string_view /*key*/, const std::string& path, const std::string& what) {
+    throw BadInput(path + ": " + what);
+  }
   virtual Form form_of(std::string_view /*key*/, bool holds_section) {
     return holds_section ? Form::section : Form::leaf;
   }
@@ -176,6 +181,10 @@ class Keys {
     if (form == FieldVisitor::Form::leaf) return config.reset();
     if (!config) config.emplace();
     section(key_deg, *config, section_meaning);
+  }
+
+  void refuse(std::string_view key, const std::string& what) const {
+    visitor_.refuse(key, path_of(key), what);
   }
 
   /// The same keys, with an effect only if this holds. `unused_by` is the key whose value takes it

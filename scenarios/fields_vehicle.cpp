@@ -270,7 +270,11 @@ void fields(const Keys& key, CameraConfig& c) {
            "Calibration file of OpenCV, Kalibr (FILE#cam1: its second camera) or ROS camera_info. "
            "It sets image size, focal lengths, centre and distortion; a run keeps these values, "
            "not the file.");
-  if (!calibration.empty()) read_calibration(calibration, c);
+  try {
+    if (!calibration.empty()) read_calibration(calibration, c);
+  } catch (const BadInput& wrong) {
+    key.refuse("calibration", wrong.what());
+  }
   const Keys of_angles = key.only_if(c.fx_px == 0.0, ".fx_px");
   of_angles.angle("fov_x_deg", c.fov_x_rad, {1, 170},
                   "Horizontal field of view; given alone, pixels are square.");
@@ -305,12 +309,10 @@ void fields(const Keys& key, LidarConfig& c) {
   preset(key, c, "lidars");
   key.word("name", c.name, "Name of the LIDAR, unlike that of any other.");
   using enum LidarPattern;
+  using enum LidarLooks;
   key("pattern", c.pattern, {{fan, "fan"}, {spinning, "spinning"}, {rosette, "rosette"}},
       "fan: one plane; spinning: rings; rosette: other points in each sweep.");
-  key("looks", c.looks,
-      {{LidarLooks::profile, "profile"},
-       {LidarLooks::views, "views"},
-       {LidarLooks::flight, "flight"}},
+  key("looks", c.looks, {{profile, "profile"}, {views, "views"}, {flight, "flight"}},
       "profile: scans that alone; views: a sweep at each view, too; flight: and at rate_hz on the "
       "way. Without cameras profile is views.");
   key("beams", c.beams, {1, 1e5}, "Beams per sweep, of a fan spread evenly; spinning: per ring.");

@@ -90,7 +90,10 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const SourceLoca
                   const SourceLocations& locations, ValidationErrors& errors) {
   const ValidationErrors given = errors;
   const auto is_wrong_already = [&](const std::string& key) { return given.concerns(key); };
-  for (const auto& [keys, what] : problems(scenario)) {
+  Problems found = problems(scenario);
+  require(!scenario.cameras.empty() || locations.contains("cameras"), found, {"cameras"},
+          "names no camera; at least one has to look, or `cameras: []` says that the LIDARs do");
+  for (const auto& [keys, what] : found) {
     if (mesh_file == MeshFile::may_be_missing && is_mesh_path(keys.front())) continue;
     if (std::ranges::any_of(keys, is_wrong_already)) continue;
     const auto& [key, location, is_given_itself] = latest_given(keys, locations, source);

@@ -40,6 +40,12 @@ class Reader final : public FieldVisitor {
     if (errors.empty()) locations_[field.path] = entry->location;
   }
 
+  void refuse(std::string_view key, const std::string& path, const std::string& what) override {
+    const YamlEntry* entry = entry_of(key);
+    errors_.add(entry != nullptr ? entry->location : levels_.back().location, path,
+                entry != nullptr ? excerpt(entry->value) : "", what);
+  }
+
   Form form_of(std::string_view key, bool holds_section) override {
     const YamlEntry* entry = entry_of(key);
     if (entry == nullptr) return FieldVisitor::form_of(key, holds_section);

@@ -89,9 +89,7 @@ class Lens {
     return distortion_.model == Distortion::none && pinhole_.skew_px == 0.0;
   }
   /// Ranges count along the ray, not along the optical axis: so wide a plane is no range.
-  bool is_radial() const {
-    return distortion_.model == Distortion::kannala_brandt || is_panorama();
-  }
+  bool is_radial() const { return distortion_.model >= Distortion::kannala_brandt; }
   bool is_panorama() const { return distortion_.model == Distortion::panorama; }
   /// What the image spans at z = 1; what is distorted does not fill it.
   const Eigen::AlignedBox2d& sight() const { return sight_; }

@@ -176,8 +176,9 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
   EXPECT_THAT(read("a: [").complaint, HasSubstr("calib:1: "));
   EXPECT_THAT(read("").complaint, HasSubstr("is empty"));
   EXPECT_THAT(read("[1, 2]").complaint, HasSubstr("holds no map of keys"));
-  EXPECT_THAT(complaint("cameras: [{calibration: none.yaml}]\n"),
-              HasSubstr("none.yaml': there is no such file"));
+  EXPECT_THAT(complaint("cameras:\n  - {}\n  - name: b\n    calibration: none.yaml\n"),
+              AllOf(HasSubstr("s.yaml:4: cameras.1.calibration: value 'none.yaml': "),
+                    HasSubstr("none.yaml: there is no such file")));
 }
 
 TEST(CameraKeys, OneFieldOfViewAloneMakesSquarePixels) {

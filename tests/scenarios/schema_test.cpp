@@ -71,11 +71,12 @@ std::string other_value(const Leaf& leaf, const std::string& mesh) {
 
 TEST(Schema, EveryKeyCanBeSet) {
   const ScenarioFile mesh(kMinimal);  // a file, that is all
-  const ScenarioFile file(
-      fmt::format("{}start: {{position_m: [0, 0, 5]}}\nstructure: {{files: [{{path: '{}'}}]}}\n"
-                  "obstacles: [{{box_m: {{min: [-1, -1, -1], max: [1, 1, 1]}}}}]\n"
-                  "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n",
-                  kOneOfEach, mesh.path().string()));
+  const ScenarioFile file(fmt::format(
+      "{}start: {{position_m: [0, 0, 5]}}\nstructure: {{files: [{{path: '{}'}}]}}\n"
+      "obstacles: [{{box_m: {{min: [-1, -1, -1], max: [1, 1, 1]}}, motion: {{waypoints: "
+      "[{{offset_m: [1, 0, 0]}}]}}}}]\n"
+      "no_fly: [{{min: [-1, -1, -1], max: [1, 1, 1]}}]\n",
+      kOneOfEach, mesh.path().string()));
   // only such an estimate can have them, and nothing but it
   const ScenarioFile outages(kOneOfEach + "vehicle: {estimate: {model: gnss, outages: [{}]}}\n");
   for (const Leaf& leaf : leaves()) {
@@ -112,6 +113,7 @@ TEST(Schema, NamesTheKeysOfTheFileAndTheirDefaults) {
   Scenario scenario = load_text(kOneOfEach);
   scenario.structure.files.resize(1);
   scenario.obstacles.resize(1);
+  scenario.obstacles[0].motion.waypoints.resize(1);
   scenario.no_fly.resize(1);
   scenario.vehicle.estimate.outages.resize(1);
   const auto is_further_rotor = [](const std::string& path) {

@@ -188,7 +188,8 @@ TEST(Fields, EveryFieldOfEveryConfigHasAKey) {
              FrontierConfig{}, ValidityConfig{}, PathSearchConfig{}, UtilityConfig{},
              VolumeWeights{}, ShadowConfig{}, UserFunctionConfig{}, TourConfig{}, SymmetryConfig{},
              RouteConfig{}, OracleConfig{}, ViewPose{}, TerminationConfig{}, PlannerConfig{},
-             StructureConfig{}, ObstacleConfig{}, ScoreConfig{}, BenchmarkConfig{});
+             StructureConfig{}, ObstacleConfig{}, MotionConfig{}, WaypointConfig{}, ScoreConfig{},
+             BenchmarkConfig{});
   expect(AutopilotParameters{});
   // the commander's others are PX4 parameters
   EXPECT_EQ(counter.counts.extract(typeid(CommanderParameters)).mapped(), 1U);
