@@ -53,13 +53,13 @@ TEST(GainCalibration, FindsAllThatADenseScanBringsAndNothingThatNoneDoes) {
     const double lacking = missing(thin, seen);
     ASSERT_GT(lacking, 300.0);
     GainCalibration calibration(0.05);
-    const float before = calibration.yield().share(kPatch, 0);
+    const float before = calibration.yield().share(kPatch, {});
     EXPECT_NEAR(calibration.expected(seen, thin.patches()), static_cast<double>(before) * lacking,
                 0.2 * lacking);
     calibration.note(seen, thin.patches(), thin.cells);
     if (is_scanned) thin.cells.add(plane(1.2, 0.01), thin.grid, 1);
     EXPECT_NEAR(calibration.settle(thin.cells).found, is_scanned ? lacking : 0.0, 0.1 * lacking);
-    const float after = calibration.yield().share(kPatch, 0);
+    const float after = calibration.yield().share(kPatch, {});
     if (is_scanned) {
       EXPECT_GE(after, before - 0.02F);
     } else {
@@ -129,19 +129,19 @@ Patch observed(std::uint8_t looks, std::uint8_t points = 0) {
 TEST(ObservationYield, BelievesWhatItSawOftenEnoughOfItsKindAlone) {
   ObservationYield yield;
   const ObservationYield fresh;
-  for (int i = 0; i < 100; ++i) yield.learn(observed(0), 0, 1000.0, 250.0);
-  EXPECT_GT(fresh.share(observed(0), 0), 0.5F);
-  EXPECT_NEAR(yield.share(observed(0), 0), 0.25F, 0.01F);
-  EXPECT_EQ(yield.share(observed(0), 1), fresh.share(observed(0), 1));
-  EXPECT_EQ(yield.share(observed(0, 1), 0), fresh.share(observed(0, 1), 0));
+  for (int i = 0; i < 100; ++i) yield.learn(observed(0), {}, 1000.0, 250.0);
+  EXPECT_GT(fresh.share(observed(0), {}), 0.5F);
+  EXPECT_NEAR(yield.share(observed(0), {}), 0.25F, 0.01F);
+  EXPECT_EQ(yield.share(observed(0), {.incidence = 1}), fresh.share(observed(0), {.incidence = 1}));
+  EXPECT_EQ(yield.share(observed(0, 1), {}), fresh.share(observed(0, 1), {}));
   // all observations beyond the last bin are alike
-  yield.learn(observed(200), 2, 1e6, 5e5);
-  EXPECT_EQ(yield.share(observed(4), 2), yield.share(observed(9), 2));
-  EXPECT_NEAR(yield.share(observed(4), 2), 0.5F, 0.01F);
+  yield.learn(observed(200), {.incidence = 2}, 1e6, 5e5);
+  EXPECT_EQ(yield.share(observed(4), {.incidence = 2}), yield.share(observed(9), {.incidence = 2}));
+  EXPECT_NEAR(yield.share(observed(4), {.incidence = 2}), 0.5F, 0.01F);
   Patch patch = observed(1);
-  const float whole = fresh.share(patch, 0);
+  const float whole = fresh.share(patch, {});
   patch.reliability = 0.5F;
-  EXPECT_EQ(fresh.share(patch, 0), 0.5F * whole);
+  EXPECT_EQ(fresh.share(patch, {}), 0.5F * whole);
   for (const auto& [deg, bin] :
        {std::pair(44.9, 0U), std::pair(45.1, 1U), std::pair(64.9, 1U), std::pair(65.1, 2U)}) {
     EXPECT_EQ(incidence_bin(static_cast<float>(std::cos(deg_to_rad(deg)))), bin) << deg;

@@ -166,14 +166,14 @@ TEST(TourPlan, GathersBySourceAndPlaceWhatCanBeExpected) {
   const TourPlan plan = make_tour_plan({}, patches, yield);
   EXPECT_EQ(plan.cube_m, kLeastCube_m);
   ASSERT_EQ(plan.cubes.size(), 3U);
-  const double share = yield.share(patches[0], 0);
+  const double share = yield.share(patches[0], {});
   EXPECT_EQ(plan.cubes[0].source, PatchSource::sampled);
   EXPECT_NEAR(plan.cubes[0].p_world_m.x(), -0.1, 1e-6);  // below 0 is another cube
   EXPECT_NEAR(plan.cubes[0].expected, 20.0 * share, 1e-5);
   EXPECT_NEAR(plan.cubes[1].p_world_m.x(), (30.0 * 0.1 + 10.0 * 0.2) / 40.0, 1e-6);
   EXPECT_NEAR(plan.cubes[1].expected, 40.0 * share, 1e-5);
   EXPECT_EQ(plan.cubes[2].source, PatchSource::boundary);
-  EXPECT_NEAR(plan.cubes[2].expected, 8.0 * yield.share(patches[3], 0), 1e-5);
+  EXPECT_NEAR(plan.cubes[2].expected, 8.0 * yield.share(patches[3], {}), 1e-5);
 }
 
 TEST(TourPlan, CubesGrowUntilTheyAreFew) {
@@ -186,7 +186,7 @@ TEST(TourPlan, CubesGrowUntilTheyAreFew) {
           patch_at(Vec3f(0.5F * static_cast<float>(i), 0.5F * static_cast<float>(j), 0.0F) +
                        Vec3f::Constant(0.25F),
                    4.0F));
-      expected += static_cast<double>(4.0F * yield.share(patches.back(), 0));
+      expected += static_cast<double>(4.0F * yield.share(patches.back(), {}));
     }
   }
   const TourPlan plan = make_tour_plan({}, patches, yield);
