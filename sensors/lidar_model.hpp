@@ -90,7 +90,7 @@ inline BeamAngles angles_of_beam(const LidarConfig& c, std::size_t beam) {
 
 /// A rosette's at that time. Two prisms of equal power turn the beam by the sum of two vectors that
 /// revolve at the rates of the Mid-40's, 7294 and -4664 a minute (first order: Marshall, SPIE 3787,
-/// 1999; rates: Liu, Yuan, Zhang, IEEE/ASME Trans. Mechatronics 27, 2022). Drawn to the field of
+/// 1999; rates: Liu, Zhang, Hong, IEEE/ASME Trans. Mechatronics 27, 2022). Drawn to the field of
 /// view. One that looks all around has no such formula in public; its azimuth revolves at one rate
 /// and its elevation swings at the other.
 inline BeamAngles angles_of_rosette(const LidarConfig& c, double time_s) {

@@ -205,20 +205,17 @@ void add_fly_command(CLI::App& app) {
   auto options = std::make_shared<FlyOptions>();
   CLI::App* const command = app.add_subcommand("fly", "serve the vehicle to a MAVLink client");
   command->footer(
-      "The vehicle stands on the ground at the scenario's start, disarmed. It is component 1 of "
-      "the\n"
-      "system that vehicle.system_id names.\n\n"
-      "udpout: the vehicle speaks first, as PX4 does. MAVSDK and pymavlink wait at port 14540 of\n"
-      "this machine, QGroundControl at 14550. It hears nobody else.\n\n"
-      "udpin: the vehicle waits, and answers the first client that sends it a good frame. While "
-      "it\n"
-      "is armed it hears nobody else. While it is not, it turns to another client after the first\n"
-      "was silent for 5 s, or when another asks for something and the first asked for nothing in\n"
-      "5 s.\n\n"
-      "Local NED counts from where the vehicle stands, as PX4's does. With --local-origin "
-      "scenario\n"
-      "it counts from the scenario's origin: north is y, east is x. That origin lies at\n"
-      "47.397742 N 8.545594 E, with z = 0 at sea level.");
+      "The vehicle stands on the ground at the scenario's start, disarmed. It is\n"
+      "component 1 of the system that vehicle.system_id names.\n\n"
+      "udpout: the vehicle speaks first, as PX4 does. MAVSDK and pymavlink wait at\n"
+      "port 14540 of this machine, QGroundControl at 14550. It hears nobody else.\n\n"
+      "udpin: the vehicle waits, and answers the first client that sends it a good\n"
+      "frame. While it is armed it hears nobody else. While it is not, it turns to\n"
+      "another client after the first was silent for 5 s, or when another asks for\n"
+      "something and the first asked for nothing in 5 s.\n\n"
+      "Local NED counts from where the vehicle stands, as PX4's does. With\n"
+      "--local-origin scenario it counts from the scenario's origin: north is y, east\n"
+      "is x. That origin lies at 47.397742 N 8.545594 E, with z = 0 at sea level.");
   add_scenario_options(*command, options->scenario);
   command
       ->add_option("--mavlink", options->urls,
