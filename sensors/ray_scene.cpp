@@ -169,14 +169,14 @@ void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRa
   }
 }
 
-std::pair<const TriangleMesh*, std::size_t> RayScene::mesh_of(std::int32_t face) const {
+RayScene::MeshFace RayScene::mesh_of(std::int32_t face) const {
   GNBV_CHECK(face >= 0, "face {} is no mesh's", face);
   const auto index = static_cast<std::uint32_t>(face);
   const auto after =
       std::ranges::find_if(movers_, [&](const Mover& mover) { return mover.first_face > index; });
   if (after == movers_.begin()) return {&embree_->meshes, index};
   const Mover& mover = *std::prev(after);
-  return {&mover.body->meshes, index - mover.first_face};
+  return {&mover.body->meshes, index - mover.first_face, mover.offset_m.cast<float>()};
 }
 
 void RayScene::first_hits(const Vec3f& origin_world_m, std::span<const RayPacket> directions_world,
@@ -254,14 +254,14 @@ bool RayScene::has_terrain() const { return embree_->first_face[3] > embree_->fi
 
 Vec3f RayScene::normal_world(std::int32_t face) const {
   if (face == kGroundFace) return Vec3f::UnitZ();
-  const auto [mesh, index] = mesh_of(face);
+  const auto [mesh, index, offset_m] = mesh_of(face);
   const auto& [a, b, c] = mesh->faces[index];
   const std::vector<Vec3f>& p = mesh->vertices_m;
   return (p[b] - p[a]).cross(p[c] - p[a]).stableNormalized();
 }
 
 const Material& RayScene::material(std::int32_t face) const {
-  const auto [mesh, index] = mesh_of(face);
+  const auto [mesh, index, offset_m] = mesh_of(face);
   return mesh->materials[material_of(*mesh, index)];
 }
 
@@ -291,7 +291,8 @@ double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_
 
 std::array<float, 3> RayScene::albedo(std::int32_t face, const Vec3f& p_world_m,
                                       const Vec3f& normal_world) const {
-  return gnbv::albedo(embree_->meshes, static_cast<std::size_t>(face), p_world_m, normal_world);
+  const auto [mesh, index, offset_m] = mesh_of(face);
+  return gnbv::albedo(*mesh, index, p_world_m - offset_m, normal_world);
 }
 
 double RayScene::distance_m(unsigned parts, const Vec3& p_world_m, double limit_m) const {

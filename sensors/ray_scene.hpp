@@ -130,7 +130,12 @@ class RayScene {
                     RTCRayHit16& packet) const;
   void find_blocked_by_movers(std::span<const int, RayPacket::kRays> valid, RTCRay16& packet) const;
   /// The mesh of a face, and its number there.
-  std::pair<const TriangleMesh*, std::size_t> mesh_of(std::int32_t face) const;
+  struct MeshFace {
+    const TriangleMesh* mesh = nullptr;
+    std::size_t index = 0;
+    Vec3f offset_m = Vec3f::Zero();  // by which the mesh has moved
+  };
+  MeshFace mesh_of(std::int32_t face) const;
 
   std::shared_ptr<const EmbreeScene> embree_;
   std::vector<Mover> movers_;

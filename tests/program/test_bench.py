@@ -6,6 +6,7 @@ import pathlib
 import re
 import shutil
 import stat
+import sys
 import zipfile
 
 import pytest
@@ -370,7 +371,7 @@ def test_the_bridge_to_ros_flies_what_comes_by_its_topics(gnbv, tmp_path):
         "--utility",
         "route",
         "--views",
-        "|python3 bridge.py",
+        f"|{sys.executable} bridge.py",
         "--out",
         "r",
         "--quiet",
