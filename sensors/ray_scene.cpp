@@ -103,6 +103,16 @@ void need_answers(std::size_t answers, std::size_t questions) {
   GNBV_CHECK(answers == questions, "{} answers for {} rays or packets", answers, questions);
 }
 
+/// So that rays meet a body that has moved by the offset where it stood.
+void move_back(const Vec3& by_m, RTCRay16& rays) {
+  const Vec3f offset_m = by_m.cast<float>();
+  for (std::size_t lane = 0; lane < kPacket; ++lane) {
+    rays.org_x[lane] -= offset_m.x();
+    rays.org_y[lane] -= offset_m.y();
+    rays.org_z[lane] -= offset_m.z();
+  }
+}
+
 }  // namespace
 
 RayScene::RayScene(const World& world) : embree_(std::make_shared<const EmbreeScene>(world)) {
@@ -122,8 +132,7 @@ RayScene RayScene::at(double time_s) const {
   return now;
 }
 
-/// Rays from where they began less the body's offset meet it where it stood. What they meet nearer
-/// than all else becomes a face of the obstacles, numbered on.
+/// What the rays meet nearer than all else becomes a face of the obstacles, numbered on.
 void RayScene::trace_movers(std::span<const int, kPacket> valid, float far_m,
                             RTCRayHit16& packet) const {
   if (!has_time_) return;
@@ -131,13 +140,8 @@ void RayScene::trace_movers(std::span<const int, kPacket> valid, float far_m,
   std::ranges::copy(valid, lanes.begin());
   RTCIntersectContext context = coherent_context();
   for (const Mover& mover : movers_) {
-    const Vec3f offset_m = mover.offset_m.cast<float>();
     RTCRayHit16 other = packet;
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      other.ray.org_x[lane] -= offset_m.x();
-      other.ray.org_y[lane] -= offset_m.y();
-      other.ray.org_z[lane] -= offset_m.z();
-    }
+    move_back(mover.offset_m, other.ray);
     trace(*mover.body, lanes, far_m, context, other);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (other.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -157,13 +161,8 @@ void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRa
   std::ranges::copy(valid, lanes.begin());
   RTCIntersectContext context = coherent_context();
   for (const Mover& mover : movers_) {
-    const Vec3f offset_m = mover.offset_m.cast<float>();
     RTCRay16 other = packet;
-    for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      other.org_x[lane] -= offset_m.x();
-      other.org_y[lane] -= offset_m.y();
-      other.org_z[lane] -= offset_m.z();
-    }
+    move_back(mover.offset_m, other);
     rtcOccluded16(lanes.data(), mover.body->scene.get(), &context, &other);
     std::ranges::copy(other.tfar, std::begin(packet.tfar));
   }
