@@ -4,6 +4,7 @@ import hashlib
 import json
 import pathlib
 import re
+import shlex
 import shutil
 import stat
 import sys
@@ -57,7 +58,7 @@ def bench(gnbv, made, tmp_path):
     shutil.copytree(made, tmp_path, dirs_exist_ok=True)
 
     def call(words, *says, code=0):
-        end = gnbv("bench", *words.split()).check({code})
+        end = gnbv("bench", *shlex.split(words)).check({code})
         for say in says:
             assert say in end.out + end.err, end.out + end.err
         return end
@@ -283,21 +284,7 @@ def test_a_planner_of_others_is_flown_again_without_it(bench, gnbv, tmp_path, pl
         pytest.importorskip("numpy")  # which gnbv hands to it
     (tmp_path / "planner.py").write_text(PLANNER if planner == "command" else FUNCTION)
     word = "python3 planner.py" if planner == "command" else "planner.py:around"
-    gnbv(
-        "bench",
-        "run",
-        "--suite",
-        "tiny.yaml",
-        "--track",
-        "tiny",
-        "--planner",
-        word,
-        "--name",
-        "ours",
-        "-o",
-        "f",
-        "--quiet",
-    ).check({0})
+    bench(f"run --suite tiny.yaml --track tiny --planner '{word}' --name ours -o f --quiet")
     bench("submit f -o f.zip")
     (tmp_path / "planner.py").unlink()
     members = members_of(tmp_path / "f.zip")
@@ -382,19 +369,11 @@ def test_the_bridge_to_ros_flies_what_comes_by_its_topics(gnbv, tmp_path):
 
 
 def test_a_planner_that_fails_has_no_mission(bench, gnbv, tmp_path):
-    gnbv(
-        "bench",
-        "run",
-        "--suite",
-        "tiny.yaml",
-        "--track",
-        "tiny",
-        "--planner",
-        "false no",
-        "-o",
-        "f",
-        "--quiet",
-    ).check({1}, names=["the planner `false no` ended before the mission"])
+    bench(
+        "run --suite tiny.yaml --track tiny --planner 'false no' -o f --quiet",
+        "the planner `false no` ended before the mission",
+        code=1,
+    )
     bench("submit f -o f.zip", "not flown", code=2)
 
 
