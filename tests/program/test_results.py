@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+import time
 
 import pytest
 from program import REPOSITORY, summary
@@ -79,6 +80,24 @@ def test_rows_of_another_program_hold_as_long_as_a_sample_does(run, first, tmp_p
     assert len(flown(tmp_path)) == 4 + 2 + 3, 'the sample, and the other tour'
     assert now['proposed', '2']['program'] == 'another' != now['tour', '2']['program']
     assert 'false' not in {row['result_sha256'] for row in now.values()}
+
+
+def test_rows_come_with_their_missions_and_outlast_a_kill(gnbv, run, first, tmp_path):
+    def timeless(file):  # by mission
+        return {row['id']: {key: row[key] for key in row if key not in
+                            ('time_min', 'within_time_min', 'wall_s')} for row in rows_of(file)}
+
+    whole, come = timeless(tmp_path / 'rows.csv'), tmp_path / 'come.csv'
+    words = f'{TABLE} --out come --jobs 1'.replace('rows.csv', come.name)
+    with subprocess.Popen([gnbv.path, *words.split()], cwd=tmp_path) as table:
+        while table.poll() is None and not come.exists():
+            time.sleep(0.002)
+        table.kill()
+    kept = timeless(come)
+    assert len(kept) == 1, 'the first one, before the others are flown'
+    assert kept.items() <= whole.items(), 'ceiling and all'
+    run(words)
+    assert timeless(come) == whole
 
 
 @pytest.mark.parametrize('change, says', [

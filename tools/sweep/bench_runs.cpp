@@ -80,36 +80,45 @@ void add_endings(BenchRuns& runs) {
   for (std::string& line : notes.lines()) runs.notes.push_back(std::move(line));
 }
 
-BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes) {
+/// Of a cell that is done, with the ceiling of its scenario, where there is one.
+MissionRow row_of(const Cell& cell, const fs::path& folder, const Ceilings& ceilings) {
+  const RunFigures figures = read_run_figures(folder);
+  MissionRow row = mission_row(figures);
+  row.scenario = cell.scenario;
+  row.method = cell.method;
+  for (const RunInput& input : read_inputs(folder)) {
+    if (input.key == "structure") row.structure_sha256 = input.sha256;
+  }
+  row.program = program_of_rows();
+  const Scenario flown = load_flown_scenario((folder / kScenarioFile).string());
+  row.figures["seeds_key_noise"] = seeds_key_noise(flown) ? 1.0 : 0.0;
+  const PaperTable* const paper = find_paper_table(flown.name);
+  const bool is_papers = paper != nullptr && is_papers_structure(*paper, row.structure);
+  row.figures["papers_structure"] = is_papers ? 1.0 : 0.0;
+  row.figures["papers_setting"] = has_papers_setting(flown) ? 1.0 : 0.0;
+  const auto ceiling = ceilings.by_scenario.find(cell.scenario);
+  if (ceiling != ceilings.by_scenario.end()) add_ceiling(figures, ceiling->second, row);
+  return row;
+}
+
+/// `rows`: of the cells that are done.
+BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>& outcomes,
+                  std::vector<MissionRow> rows, const Ceilings& ceilings) {
   BenchRuns collected;
   RowNotes missing;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = cells[i];
-    MissionRow row{.scenario = cell.scenario, .method = cell.method, .seed = cell.seed};
-    if (outcomes[i].status != CellStatus::done) {
-      missing.add(row, "without a result: " + why_missing(outcomes[i]));
+    if (outcomes[i].status == CellStatus::done) {
+      collected.rows.push_back(std::move(rows[i]));
+      collected.folders.push_back(outcomes[i].run);
       continue;
     }
-    const fs::path& folder = outcomes[i].run;
-    row = mission_row(read_run_figures(folder));
-    row.scenario = cell.scenario;
-    row.method = cell.method;
-    for (const RunInput& input : read_inputs(folder)) {
-      if (input.key == "structure") row.structure_sha256 = input.sha256;
-    }
-    row.program = program_of_rows();
-    const Scenario flown = load_flown_scenario((folder / kScenarioFile).string());
-    row.figures["seeds_key_noise"] = seeds_key_noise(flown) ? 1.0 : 0.0;
-    const PaperTable* const paper = find_paper_table(flown.name);
-    const bool is_papers = paper != nullptr && is_papers_structure(*paper, row.structure);
-    row.figures["papers_structure"] = is_papers ? 1.0 : 0.0;
-    row.figures["papers_setting"] = has_papers_setting(flown) ? 1.0 : 0.0;
-    collected.rows.push_back(std::move(row));
-    collected.folders.push_back(folder);
+    missing.add({.scenario = cells[i].scenario, .method = cells[i].method, .seed = cells[i].seed},
+                "without a result: " + why_missing(outcomes[i]));
   }
   collected.failures = missing.lines();
   collected.notes = collected.failures;
   add_endings(collected);
+  collected.notes.insert(collected.notes.end(), ceilings.notes.begin(), ceilings.notes.end());
   return collected;
 }
 
@@ -148,26 +157,39 @@ std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count) {
   return seeds;
 }
 
-BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options) {
+BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options,
+                    const Ceilings& ceilings, const TakeRow& take) {
   need_one_reference(cells);
+  std::vector<MissionRow> rows(cells.size());
+  const auto on_done = [&](std::size_t i, const CellOutcome& outcome) {
+    rows[i] = row_of(cells[i], outcome.run, ceilings);
+    if (take) take(i, outcome.run, rows[i]);
+  };
   const RunCellsOptions run{.folder = bench_folder(options),
                             .jobs = options.jobs,
                             .threads = options.threads,
                             .retry_failed = true,  // a failure of an earlier call is no result
-                            .quiet = options.quiet};
+                            .quiet = options.quiet,
+                            .on_done = on_done};
   const std::vector<CellOutcome> outcomes = run_cells(cells, run);
   // a table of some of the missions would be misread as complete
   if (std::ranges::count(outcomes, CellStatus::missing, &CellOutcome::status) > 0) {
     throw CommandFailed("interrupted; the same command goes on");
   }
-  return collect(cells, outcomes);
+  return collect(cells, outcomes, std::move(rows), ceilings);
 }
 
-BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder) {
+BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder,
+                     const Ceilings& ceilings) {
   need_one_reference(cells);
   std::vector<CellOutcome> outcomes;
-  for (const Cell& cell : cells) outcomes.push_back(look_up(folder, cell));
-  return collect(cells, outcomes);
+  std::vector<MissionRow> rows(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    outcomes.push_back(look_up(folder, cells[i]));
+    if (outcomes[i].status != CellStatus::done) continue;
+    rows[i] = row_of(cells[i], outcomes[i].run, ceilings);
+  }
+  return collect(cells, outcomes, std::move(rows), ceilings);
 }
 
 BenchRuns read_rows(const std::vector<fs::path>& csvs) {
@@ -200,44 +222,36 @@ Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {
                       thread_count(options.threads));
 }
 
-void add_ceilings(const std::string& baseline, const BenchOptions& options, BenchRuns& runs) {
-  // by scenario and method, the first run
-  std::map<std::string, std::map<std::string, std::size_t>> firsts;
-  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
-    if (runs.folders[i].empty()) continue;
-    firsts[runs.rows[i].scenario].try_emplace(runs.rows[i].method, i);
-  }
-  std::map<std::string, Ceiling> by_scenario, by_content;
+Ceilings ceilings_of(const std::vector<Cell>& cells, const std::string& baseline,
+                     const BenchOptions& options) {
+  Ceilings found;
+  if (options.no_ceiling) return found;
+  std::map<std::string, std::map<std::string, const Cell*>> firsts;  // by scenario and method
+  for (const Cell& cell : cells) firsts[cell.scenario].try_emplace(cell.method, &cell);
+  std::map<std::string, Ceiling> by_content;
   for (const auto& [scenario, methods] : firsts) {
     try {
-      const auto flown_by = [&](std::size_t run) {
-        return load_scenario((runs.folders[run] / kScenarioFile).string(), {});
-      };
       const auto own = methods.find(baseline);
       const auto& [yardstick, first] = own == methods.end() ? *methods.begin() : *own;
-      const std::string content = to_yaml(what_a_ceiling_depends_on(flown_by(first)));
+      const std::string content = to_yaml(what_a_ceiling_depends_on(first->resolved));
       if (!by_content.contains(content)) {
-        by_content.emplace(content, ceiling_of(flown_by(first), options));
+        by_content.emplace(content, ceiling_of(first->resolved, options));
       }
-      by_scenario.emplace(scenario, by_content.at(content));
+      found.by_scenario.emplace(scenario, by_content.at(content));
       std::vector<std::string> others;
-      for (const auto& [method, run] : methods) {
-        if (to_yaml(what_a_ceiling_depends_on(flown_by(run))) != content) others.push_back(method);
+      for (const auto& [method, cell] : methods) {
+        if (to_yaml(what_a_ceiling_depends_on(cell->resolved)) != content) others.push_back(method);
       }
       if (others.empty() || options.ceiling_percent) continue;
-      runs.notes.push_back(
+      found.notes.push_back(
           fmt::format("{}: one ceiling for all, that of {}; {} would have another, because "
                       "cameras, leaf or room differ",
                       scenario, yardstick, fmt::join(others, ", ")));
     } catch (const BadInput& error) {
-      runs.notes.push_back(fmt::format("{}: no share of ceiling: {}", scenario, error.what()));
+      found.notes.push_back(fmt::format("{}: no share of ceiling: {}", scenario, error.what()));
     }
   }
-  for (std::size_t i = 0; i < runs.rows.size(); ++i) {
-    const auto ceiling = by_scenario.find(runs.rows[i].scenario);
-    if (runs.folders[i].empty() || ceiling == by_scenario.end()) continue;
-    add_ceiling(read_run_figures(runs.folders[i]), ceiling->second, runs.rows[i]);
-  }
+  return found;
 }
 
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,30 +48,40 @@ struct BenchRuns {
   std::vector<std::string> failures;  // of the notes: cells without a result, collisions
 };
 
-/// Flies what is missing and reads all, without ceilings. Throws CommandFailed when it is
-/// interrupted, BadInput before that for cells of a scenario whose coverages are of unlike voxels.
-BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options);
+/// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.
+Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
+
+struct Ceilings {
+  std::map<std::string, Ceiling> by_scenario;
+  std::vector<std::string> notes;  // methods that would have another, scenarios without one
+};
+
+/// Of each scenario one ceiling, as the baseline's first cell has it (without one, that of the
+/// first method by name). None with options.no_ceiling, nor where the structure cannot be read.
+Ceilings ceilings_of(const std::vector<Cell>& cells, const std::string& baseline,
+                     const BenchOptions& options);
+
+/// Is given the row of a cell and its run directory, as soon as it is done.
+using TakeRow = std::function<void(std::size_t cell, const std::filesystem::path& run, MissionRow)>;
+
+/// Flies what is missing and reads all. Throws CommandFailed when it is interrupted, BadInput
+/// before that for cells of a scenario whose coverages are of unlike voxels.
+BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options,
+                    const Ceilings& ceilings = {}, const TakeRow& take = {});
 
 /// What is known of the cells in a folder, without flying anything. Throws BadInput as fly_cells().
-BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder);
+BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path& folder,
+                     const Ceilings& ceilings = {});
 
 /// The rows of missions that an earlier program flew, from files. Throws BadInput as
 /// read_missions(), and for two rows of one mission in different files.
 BenchRuns read_rows(const std::vector<std::filesystem::path>& csvs);
 
 /// The rows of the cells with their ceilings, from options.missions as far as it has them, else
-/// flown; the file then holds all of them. Rows of another program hold as long as this one flies a
-/// sample of them to the same result: of each scenario and method the first cell.
+/// flown; the file takes them as they come. Rows of another program hold as long as this one flies
+/// a sample of them to the same result: of each scenario and method the first cell.
 BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& baseline,
                         const BenchOptions& options, const std::string& setting = "");
-
-/// The ceiling of a scenario, with its structure loaded for the purpose, or the one that is given.
-Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options);
-
-/// Adds to rows with a folder the ceiling of their scenario, as the baseline's first run resolved
-/// it (without one, that of the first method by name); the notes name the methods that would have
-/// another. One that cannot be found, its mesh being gone, is left out, and the notes say why.
-void add_ceilings(const std::string& baseline, const BenchOptions& options, BenchRuns& runs);
 
 /// What shares of the ceiling are of, when it is given.
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);

@@ -10,7 +10,9 @@
 #include "planner/planners.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "tools/run/file_names.hpp"
 #include "tools/sweep/manifest.hpp"
+#include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {
@@ -92,9 +94,15 @@ BenchRuns runs_of(const CompareRequest& request, const std::string& baseline,
                   const std::vector<Cell>& cells, const BenchOptions& options) {
   if (request.from.empty()) return rows_of_cells(cells, baseline, options);
   if (cells.empty()) return read_rows(request.from);
-  BenchRuns runs = read_cells(cells, request.from.front());
-  if (!options.no_ceiling) add_ceilings(baseline, options, runs);
-  return runs;
+  const fs::path& folder = request.from.front();
+  std::vector<Cell> done;
+  for (Cell cell : cells) {  // which a manifest does not resolve
+    const CellOutcome outcome = look_up(folder, cell);
+    if (outcome.status != CellStatus::done) continue;
+    cell.resolved = load_flown_scenario((outcome.run / kScenarioFile).string());
+    done.push_back(std::move(cell));
+  }
+  return read_cells(cells, folder, ceilings_of(done, baseline, options));
 }
 
 /// Rows of tables as methods: without those that know the structure, and those of a setting beside

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "sim/core/file.hpp"
@@ -47,6 +49,16 @@ void keep_what_holds(const std::vector<Cell>& cells, const std::vector<std::stri
   }
 }
 
+/// The file with these rows in place of those of the same missions.
+void write_rows(std::vector<MissionRow> file, const std::vector<MissionRow>& rows,
+                const std::filesystem::path& path) {
+  std::set<std::string> names;
+  for (const MissionRow& row : rows) names.insert(row_name(row));
+  std::erase_if(file, [&](const MissionRow& row) { return names.contains(row_name(row)); });
+  file.insert(file.end(), rows.begin(), rows.end());
+  write_file_atomically(path, missions_csv(file));
+}
+
 }  // namespace
 
 BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& baseline,
@@ -62,40 +74,43 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
   for (const MissionRow& row : file) known.emplace(row.id, row);
   keep_what_holds(cells, ids, options, known);
 
-  std::vector<Cell> to_fly;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!known.contains(ids[i])) to_fly.push_back(cells[i]);
-  }
-  BenchRuns flown = fly_cells(to_fly, options);
-  if (!options.no_ceiling) add_ceilings(baseline, options, flown);
-
   BenchRuns all;
+  std::vector<std::optional<MissionRow>> rows(cells.size());
+  std::vector<std::filesystem::path> folders(cells.size());
+  std::vector<Cell> to_fly;
+  std::vector<std::size_t> places;  // of these among all
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (const auto row = known.find(ids[i]); row != known.end()) {
+      rows[i] = row->second;
+      continue;
+    }
+    to_fly.push_back(cells[i]);
+    places.push_back(i);
+  }
+  const auto write = [&] {
+    all.rows.clear();
+    all.folders.clear();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!rows[i]) continue;  // failed, as the notes say, or not flown yet
+      MissionRow& row = all.rows.emplace_back(*rows[i]);
+      row.id = ids[i];
+      row.scenario = cells[i].scenario;
+      row.method = cells[i].method;
+      row.setting = setting;
+      all.folders.push_back(folders[i]);
+    }
+    if (!options.missions.empty()) write_rows(file, all.rows, options.missions);
+  };
+  const auto take = [&](std::size_t flown, const std::filesystem::path& folder, MissionRow row) {
+    row.commit = options.commit;
+    rows[places[flown]] = std::move(row);
+    folders[places[flown]] = folder;
+    write();
+  };
+  const BenchRuns flown = fly_cells(to_fly, options, ceilings_of(to_fly, baseline, options), take);
   all.notes = flown.notes;
   all.failures = flown.failures;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = cells[i];
-    const auto own = std::ranges::find_if(flown.rows, [&](const MissionRow& row) {
-      return row.scenario == cell.scenario && row.method == cell.method && row.seed == cell.seed;
-    });
-    const auto row = known.find(ids[i]);
-    if (own == flown.rows.end() && row == known.end()) continue;  // failed; the notes say so
-    const bool is_new = own != flown.rows.end();
-    all.rows.push_back(is_new ? *own : row->second);
-    all.rows.back().id = ids[i];
-    all.rows.back().scenario = cell.scenario;
-    all.rows.back().method = cell.method;
-    all.rows.back().setting = setting;
-    if (is_new) all.rows.back().commit = options.commit;
-    all.folders.push_back(is_new ? flown.folders[static_cast<std::size_t>(own - flown.rows.begin())]
-                                 : std::filesystem::path());
-  }
-  if (options.missions.empty()) return all;
-  std::erase_if(file, [&](const MissionRow& row) {
-    return std::ranges::any_of(
-        all.rows, [&](const MissionRow& now) { return row_name(now) == row_name(row); });
-  });
-  file.insert(file.end(), all.rows.begin(), all.rows.end());
-  write_file_atomically(options.missions, missions_csv(file));
+  write();
   return all;
 }
 

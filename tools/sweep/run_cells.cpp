@@ -51,7 +51,9 @@ class Pool {
         outcomes_(cells.size()),
         progress_("missions", options.quiet) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (first_of_id_.emplace(cells[i].id, i).second) waiting_.push_back(i);
+      std::vector<std::size_t>& same = of_id_[cells[i].id];
+      if (same.empty()) waiting_.push_back(i);
+      same.push_back(i);
     }
   }
 
@@ -68,9 +70,6 @@ class Pool {
     } catch (...) {  // a full disk
       end_missions();
       throw;
-    }
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      outcomes_[i] = outcomes_[first_of_id_.at(cells_[i].id)];
     }
     return std::move(outcomes_);
   }
@@ -240,15 +239,18 @@ class Pool {
   }
 
   void settle(std::size_t index, const CellOutcome& outcome) {
-    outcomes_[index] = outcome;
     if (outcome.status == CellStatus::missing) return;
     settled_ += 1;
     failed_ += outcome.status == CellStatus::failed ? 1 : 0;
+    for (const std::size_t same : of_id_.at(cells_[index].id)) {
+      outcomes_[same] = outcome;
+      if (outcome.status == CellStatus::done && options_.on_done) options_.on_done(same, outcome);
+    }
   }
 
   /// Cells that others flew are there at once: the pace is that of the ones flown here.
   void show_progress() {
-    const std::size_t all = first_of_id_.size();
+    const std::size_t all = of_id_.size();
     const double spent_s = std::chrono::duration<double>(Clock::now() - begin_).count();
     const std::size_t left = all - settled_;
     progress_.show(
@@ -261,7 +263,7 @@ class Pool {
   const RunCellsOptions& options_;
   const fs::path program_;
   const int threads_;
-  std::map<std::string, std::size_t> first_of_id_;  // others of the id share its outcome
+  std::map<std::string, std::vector<std::size_t>> of_id_;  // which share an outcome
   std::vector<CellOutcome> outcomes_;
   std::deque<std::size_t> waiting_;
   std::deque<std::size_t> locked_;  // by other processes

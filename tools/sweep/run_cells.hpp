@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,16 @@
 
 namespace gnbv {
 
+enum class CellStatus { done, failed, locked, missing };
+constexpr std::array<std::string_view, 4> kCellStatusNames = {"done", "failed", "running",
+                                                              "missing"};
+
+struct CellOutcome {
+  CellStatus status = CellStatus::missing;
+  std::filesystem::path run;  // the run directory, when done
+  std::string failure;        // one line, when failed
+};
+
 struct RunCellsOptions {
   std::filesystem::path folder{};  // of the sweep; FOLDER/cells/ID/ are the run directories
   int jobs = 1;                    // processes at a time
@@ -24,16 +35,7 @@ struct RunCellsOptions {
   bool quiet = false;
   std::filesystem::path program{};           // that flies them; empty: this one
   std::vector<std::string> run_arguments{};  // of `gnbv run` beside its own, such as --frames
-};
-
-enum class CellStatus { done, failed, locked, missing };
-constexpr std::array<std::string_view, 4> kCellStatusNames = {"done", "failed", "running",
-                                                              "missing"};
-
-struct CellOutcome {
-  CellStatus status = CellStatus::missing;
-  std::filesystem::path run;  // the run directory, when done
-  std::string failure;        // one line, when failed
+  std::function<void(std::size_t cell, const CellOutcome&)> on_done{};  // as soon as it is done
 };
 
 /// What is known of the cell on disk.
