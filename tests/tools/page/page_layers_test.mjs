@@ -1,12 +1,14 @@
 // A report in a browser says and shows what the run directory holds: layers, legend, decisions,
 // plots; in a link, as files, on paper and on a phone.
-// usage: node page_layers_test.mjs CHROMIUM PAGE RUN...
+// usage: node page_layers_test.mjs CHROMIUM PAGE RUN... [--only CHECK...]
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { Page, csv, different, jsonLines, viewsOf } from "./page_driver.mjs";
 
-const [chromium, file, ...runs] = process.argv.slice(2);
+const [chromium, file, ...rest] = process.argv.slice(2);
+const runs = rest.slice(0, rest.concat("--only").indexOf("--only"));
+const only = rest.slice(runs.length + 1);
 const isAlone = runs.length === 1;
 const page = await Page.open(chromium, file, 1200, 800);
 const curves = runs.map((run) =>
@@ -352,20 +354,17 @@ async function printsAtOnce() {
   await page.browser.call("Page.removeScriptToEvaluateOnNewDocument", { identifier });
 }
 
+const hasLine = isAlone && existsSync(join(runs[0], "surface"));
+const checks = [gistIsLikeTheWhole, foundIsCoverage, decisionsAreTold, pointingTells,
+  ...hasLine ? [lineParts] : [], legendsTell, plotsTellRunsApart, linksShow, filesAreSaved,
+  fitsAnyPaper, printsAtOnce];
+const asked = checks.filter(({ name }) => only.length === 0 || only.includes(name));
+assert.ok(asked.length >= Math.max(1, only.length), `no such check: ${only}`);
 try {
-  await gistIsLikeTheWhole();
-  await foundIsCoverage();
-  await decisionsAreTold();
-  await pointingTells();
-  if (isAlone && existsSync(join(runs[0], "surface"))) await lineParts();
-  await legendsTell();
-  await plotsTellRunsApart();
-  await linksShow();
-  await filesAreSaved();
-  await fitsAnyPaper();
+  await page.go();
+  for (const check of asked) await check();
   assert.deepEqual(page.complaints, []);
   assert.equal(await page.is("window.hacked"), undefined);
-  await printsAtOnce();
 } finally {
   await page.close();
 }

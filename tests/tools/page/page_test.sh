@@ -35,13 +35,14 @@ cp -R seed1 again
   --set planner.termination.max_iterations=7 >/dev/null
 "$gnbv" report lab --quiet -o lab.html >/dev/null
 layers() { node "$here/page_layers_test.mjs" "$CHROMIUM" "$@"; }
-layers equal.html seed1 again
-layers lab.html lab
+# each is of a kind that the last two lines have not
+layers equal.html seed1 again --only foundIsCoverage plotsTellRunsApart
+layers lab.html lab --only decisionsAreTold
 "$gnbv" run smoke --quiet --frames --candidates --out bursts \
   --set planner.fvs.entropy_threshold_nat=1 --set planner.termination.max_iterations=8 >/dev/null
 "$gnbv" report bursts --quiet -o bursts.html >/dev/null
-layers bursts.html bursts
-layers seeds.html seed1 seed2
+layers bursts.html bursts --only decisionsAreTold
+layers seeds.html seed1 seed2 --only foundIsCoverage decisionsAreTold plotsTellRunsApart linksShow
 for test in page_test page_layers_test; do
   node "$here/$test.mjs" "$CHROMIUM" one.html "${evil}proposed"
   node "$here/$test.mjs" "$CHROMIUM" two.html "${evil}proposed" "${evil}tour"
