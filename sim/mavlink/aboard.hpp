@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,14 @@
 
 namespace gnbv::mavlink {
 
+/// What a camera sends as RTP with H.264.
+struct VideoStream {
+  std::string camera;
+  int width_px = 0, height_px = 0;
+  double rate_hz = 0.0, fov_x_deg = 0.0;
+  std::uint16_t port = 0;  // where the client waits for it
+};
+
 struct Aboard {
   std::uint8_t system_id = 1;                // MAV_SYS_ID
   double battery_wh = 0.0;                   // as PowerParameters has it
@@ -19,6 +28,7 @@ struct Aboard {
   std::vector<MissionItemInt> mission = {};  // as it was uploaded
   std::map<std::size_t, double> kept = {};   // values of inert parameters, by their number
   bool was_armed = false;                    // when news were taken last
+  std::optional<VideoStream> video = {};     // with it there is a camera, component kCamera
 };
 
 /// By number: PX4's that the vehicle follows (kPx4Parameters), then inert ones: of remote control,

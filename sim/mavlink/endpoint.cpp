@@ -23,7 +23,9 @@ enum MavCommand : std::uint16_t {
   kSetMessageInterval = 511,
   kRequestMessage = 512,
   kRequestProtocolVersion = 519,
-  kRequestAutopilotCapabilities = 520
+  kRequestAutopilotCapabilities = 520,
+  kRequestCameraInformation = 521,
+  kRequestVideoStreamInformation = 2504
 };
 
 /// A message's id as a parameter carries it; one that no message has when it is none.
@@ -246,6 +248,7 @@ void Endpoint::receive(std::span<const std::uint8_t> datagram, const Address& fr
   if (client() != client_before) streams_ = {};  // another client, other wishes
   for (const Frame& frame : frames) {
     if (frame.message_id == Heartbeat::kInfo.id) continue;  // the link has taken note of it
+    if (answers_as_camera(frame, vehicle)) continue;
     const Handler handler{*this, frame, now_s, vehicle};
     if (handle_if_order(frame, aboard_.system_id, handler)) continue;
     const bool is_question =
@@ -257,6 +260,28 @@ void Endpoint::receive(std::span<const std::uint8_t> datagram, const Address& fr
   }
 }
 
+/// A command for the camera, which says what it is when asked and does nothing else.
+bool Endpoint::answers_as_camera(const Frame& frame, const Quadrotor& vehicle) {
+  if (!aboard_.video || frame.message_id != CommandLong::kInfo.id) return false;
+  const auto asked = message_of<CommandLong>(frame.payload);
+  if (asked.target_component != kCamera || asked.target_system != aboard_.system_id) return false;
+  ++counts_.commands;
+  const std::uint32_t id = asked.command == kRequestCameraInformation ? CameraInformation::kInfo.id
+                           : asked.command == kRequestVideoStreamInformation
+                               ? VideoStreamInformation::kInfo.id
+                           : asked.command == kRequestMessage ? message_id_of(asked.param[0])
+                                                              : 0;
+  const Ack result = is_cameras(id) ? Ack::accepted : Ack::unsupported;
+  Frame ack = packed(CommandAck{.command = asked.command,
+                                .result = static_cast<std::uint8_t>(result),
+                                .target_system = frame.system_id,
+                                .target_component = frame.component_id});
+  ack.component_id = kCamera;
+  send(std::move(ack));
+  if (is_cameras(id)) send(*said_of(id, report_of(vehicle)));
+  return true;
+}
+
 VehicleReport Endpoint::report_of(const Quadrotor& vehicle) const {
   return {.estimate = vehicle.estimate(),
           .time_boot_ms = static_cast<std::uint32_t>(vehicle.tick() * (1000 / kTicksPerSecond)),
@@ -265,7 +290,8 @@ VehicleReport Endpoint::report_of(const Quadrotor& vehicle) const {
           .battery_wh = aboard_.battery_wh,
           .power_w = vehicle.power_w(),
           .origin_world_m = aboard_.origin_world_m,
-          .specific_force_body_m_s2 = vehicle.specific_force_body_m_s2()};
+          .specific_force_body_m_s2 = vehicle.specific_force_body_m_s2(),
+          .video = aboard_.video ? &*aboard_.video : nullptr};
 }
 
 void Endpoint::refuse_setpoint(const std::string& reason, double now_s) {
@@ -288,7 +314,7 @@ void Endpoint::send(Frame frame) {
   }
   frame.sequence = sequence_++;
   frame.system_id = aboard_.system_id;
-  frame.component_id = kComponent;
+  if (frame.component_id == 0) frame.component_id = kComponent;
   outgoing_.push_back(write_frame(frame));
 }
 
@@ -313,7 +339,10 @@ std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s,
   for (const std::uint16_t item : news.reached) send(packed(MissionItemReached{item}));
   for (Frame& frame : missions_.remind(now_s)) send(std::move(frame));
   const VehicleReport report = report_of(vehicle);
-  for (const std::uint32_t id : streams_.take_due(now_s)) send(*said_of(id, report));
+  for (const std::uint32_t id : streams_.take_due(now_s)) {
+    if (std::optional<Frame> frame = said_of(id, report)) send(*std::move(frame));
+    if (id == Heartbeat::kInfo.id && aboard_.video) send(camera_heartbeat());
+  }
   return std::exchange(outgoing_, {});
 }
 

@@ -1,5 +1,5 @@
 // The vehicle's end of a MAVLink connection, without the network: datagrams in, frames out. The
-// vehicle is component 1 of its system, and speaks MAVLink 2.
+// vehicle is component 1 of its system, its camera component 100. Both speak MAVLink 2.
 #pragma once
 
 #include <cstdint>
@@ -72,6 +72,7 @@ class Endpoint {
   struct Handler;  // of each message that a client may send
 
   VehicleReport report_of(const Quadrotor& vehicle) const;
+  bool answers_as_camera(const Frame& frame, const Quadrotor& vehicle);
   void refuse_setpoint(const std::string& reason, double now_s);
   void say(const gnbv::StatusText& text);
   void send(Frame frame);

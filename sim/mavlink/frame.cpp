@@ -24,7 +24,8 @@ constexpr auto kMessages =
              MissionRequestInt, MissionItemInt, VfrHud, CommandInt, CommandLong, CommandAck,
              SetAttitudeTarget, SetPositionTargetLocalNed, SetPositionTargetGlobalInt, HighresImu,
              Timesync, BatteryStatus, AutopilotVersion, HomePosition, MessageInterval,
-             ExtendedSysState, StatusText, ProtocolVersion, Odometry>();
+             ExtendedSysState, StatusText, CameraInformation, VideoStreamInformation,
+             ProtocolVersion, Odometry>();
 
 /// nullptr for a message that is not one of ours.
 const MessageInfo* find_message(std::uint32_t id) {

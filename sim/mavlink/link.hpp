@@ -28,6 +28,7 @@ struct LinkCounts {
 
 /// Whom commands and setpoints are for. 0 is everybody.
 constexpr std::uint8_t kComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
+constexpr std::uint8_t kCamera = 100;   // MAV_COMP_ID_CAMERA
 
 template <typename Message>
 bool is_for_us(const Message& message, std::uint8_t system_id) {

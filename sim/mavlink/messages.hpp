@@ -358,6 +358,33 @@ struct [[gnu::packed]] StatusText {
   std::uint8_t chunk_seq = 0;
 };
 
+/// Of component 100. NaN: unknown.
+struct CameraInformation {
+  static constexpr MessageInfo kInfo = {259, 92, 235, 235};
+  std::uint32_t time_boot_ms = 0, firmware_version = 0;
+  float focal_length_mm = std::numeric_limits<float>::quiet_NaN();
+  float sensor_width_mm = std::numeric_limits<float>::quiet_NaN();
+  float sensor_height_mm = std::numeric_limits<float>::quiet_NaN();
+  std::uint32_t flags = 0x100;  // CAMERA_CAP_FLAGS_HAS_VIDEO_STREAM
+  std::uint16_t width_px = 0, height_px = 0, definition_version = 0;
+  std::array<char, 32> vendor{}, model{};
+  std::uint8_t lens_id = 0;
+  std::array<char, 140> definition_uri{};
+};
+
+struct [[gnu::packed]] VideoStreamInformation {
+  static constexpr MessageInfo kInfo = {269, 109, 213, 214};
+  float rate_hz = 0;
+  std::uint32_t bitrate = 0;
+  std::uint16_t flags = 1;  // VIDEO_STREAM_STATUS_FLAGS_RUNNING
+  std::uint16_t width_px = 0, height_px = 0, rotation_deg = 0, fov_x_deg = 0;
+  std::uint8_t stream_id = 1, count = 1;
+  std::uint8_t type = 1;  // VIDEO_STREAM_TYPE_RTPUDP, whose uri is a port
+  std::array<char, 32> name{};
+  std::array<char, 160> uri{};
+  std::uint8_t encoding = 1;  // VIDEO_STREAM_ENCODING_H264
+};
+
 /// Versions times 100.
 struct ProtocolVersion {
   static constexpr MessageInfo kInfo = {300, 217, 22, 22};

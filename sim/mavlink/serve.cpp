@@ -91,6 +91,7 @@ ServeResult serve(Quadrotor& vehicle, mavlink::Aboard& aboard, Stations stations
       vehicle.step();
     }
     speak(aboard, stations, vehicle, now_s);
+    if (options.on_turn) options.on_turn(vehicle);
     if (end()) return {*end(), watch.elapsed_s()};
     if (pace.give_up_lag(vehicle.tick(), now_s) && !has_lagged) {
       has_lagged = true;

@@ -17,6 +17,7 @@ struct ServeOptions {
   double duration_s = 0.0;  // simulated; 0: until should_stop
   std::function<bool()> should_stop;
   std::function<void()> on_lag;  // called once, when time is given up for the first time
+  std::function<void(const Quadrotor&)> on_turn = {};  // after each of its turns
 };
 
 enum class ServeEnd { stopped, duration, collision };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/mavlink/border.hpp"
+#include "sim/mavlink/link.hpp"
 
 namespace gnbv::mavlink {
 namespace {
@@ -253,6 +254,33 @@ AutopilotVersion autopilot_version(const VehicleReport&) {
 
 ProtocolVersion protocol_version(const VehicleReport&) { return {}; }
 
+/// Ends in zeros.
+template <std::size_t kSize>
+std::array<char, kSize> text(std::string_view from) {
+  std::array<char, kSize> to{};
+  std::ranges::copy(from.substr(0, kSize - 1), to.begin());
+  return to;
+}
+
+CameraInformation camera_information(const VehicleReport& report) {
+  const VideoStream& video = *report.video;
+  return {.time_boot_ms = report.time_boot_ms,
+          .width_px = static_cast<std::uint16_t>(video.width_px),
+          .height_px = static_cast<std::uint16_t>(video.height_px),
+          .vendor = text<32>("gnbv"),
+          .model = text<32>(video.camera)};
+}
+
+VideoStreamInformation video_stream_information(const VehicleReport& report) {
+  const VideoStream& video = *report.video;
+  return {.rate_hz = static_cast<float>(video.rate_hz),
+          .width_px = static_cast<std::uint16_t>(video.width_px),
+          .height_px = static_cast<std::uint16_t>(video.height_px),
+          .fov_x_deg = static_cast<std::uint16_t>(std::lround(video.fov_x_deg)),
+          .name = text<32>(video.camera),
+          .uri = text<160>(std::to_string(video.port))};
+}
+
 struct Said {
   std::uint32_t id;
   double interval_s;  // by default; 0: only when asked
@@ -283,14 +311,30 @@ constexpr std::array kSaid = {said<heartbeat>(1.0),
                               said<mission_current>(1.0),
                               said<global_origin>(0.0),
                               said<autopilot_version>(0.0),
-                              said<protocol_version>(0.0)};
+                              said<protocol_version>(0.0),
+                              said<camera_information>(0.0),
+                              said<video_stream_information>(0.0)};
 
 }  // namespace
 
 std::optional<Frame> said_of(std::uint32_t id, const VehicleReport& report) {
   const auto* const found = std::ranges::find(kSaid, id, &Said::id);
-  if (found == kSaid.end()) return std::nullopt;
-  return found->pack(report);
+  if (found == kSaid.end() || (is_cameras(id) && report.video == nullptr)) return std::nullopt;
+  Frame frame = found->pack(report);
+  frame.component_id = is_cameras(id) ? kCamera : kComponent;
+  return frame;
+}
+
+bool is_cameras(std::uint32_t id) {
+  return id == CameraInformation::kInfo.id || id == VideoStreamInformation::kInfo.id;
+}
+
+Frame camera_heartbeat() {
+  constexpr std::uint8_t kMavTypeCamera = 30, kNoAutopilot = 8, kActive = 4;
+  Frame frame = packed(
+      Heartbeat{.type = kMavTypeCamera, .autopilot = kNoAutopilot, .system_status = kActive});
+  frame.component_id = kCamera;
+  return frame;
 }
 
 std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id) {

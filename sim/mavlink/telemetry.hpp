@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/flight/px4.hpp"
+#include "sim/mavlink/aboard.hpp"
 #include "sim/mavlink/messages.hpp"
 
 namespace gnbv::mavlink {
@@ -23,10 +24,16 @@ struct VehicleReport {
   double power_w = 0.0;
   Vec3 origin_world_m = Vec3::Zero();                       // of local NED
   Vec3 specific_force_body_m_s2 = Vec3(0.0, 0.0, 9.80665);  // what an accelerometer feels
+  const VideoStream* video = nullptr;                       // only of the camera's messages
 };
 
-/// Message `id` about the vehicle as it is; nothing for one that it does not say.
+/// Message `id` about the vehicle as it is, from the component whose message it is; nothing for one
+/// that it does not say.
 std::optional<Frame> said_of(std::uint32_t id, const VehicleReport& report);
+/// Whether it is the camera's.
+bool is_cameras(std::uint32_t id);
+/// Of the component kCamera.
+Frame camera_heartbeat();
 
 /// One message for up to 50 characters, and chunks with the same `id` (not 0) for more.
 std::vector<StatusText> status_texts_of(const gnbv::StatusText& said, std::uint16_t id);

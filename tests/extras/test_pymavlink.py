@@ -14,6 +14,7 @@ POSITION_AND_YAW = 2552  # type masks: all but these ignored
 VELOCITY_AND_YAW = 2503
 HOLD, RETURN = (4, 3), (4, 5)  # PX4's main and sub modes
 OFFBOARD = (6, 0)
+CAMERA_INFORMATION, VIDEO_STREAM_INFORMATION = 259, 269  # ids of MAVLink 2 alone
 
 
 class Client:
@@ -232,6 +233,23 @@ def test_telemetry_comes_at_the_rates_asked(fly, connected):
     assert 80 <= heard["ATTITUDE"] <= 160 and 20 <= heard["LOCAL_POSITION_NED"] <= 40
     assert heard["GLOBAL_POSITION_INT"] <= 1, "one may have been under way"
     vehicle.end()
+
+
+def test_a_camera_says_where_its_video_goes(fly, connected):
+    vehicle = fly("--video", f"rtp://127.0.0.1:{free_port()}")
+    client = connected(f"udpin:127.0.0.1:{vehicle.port}")
+    client.until("HEARTBEAT", lambda m: m.type == mavlink.MAV_TYPE_CAMERA
+                 and m.get_srcComponent() == mavlink.MAV_COMP_ID_CAMERA)
+    for kind in (CAMERA_INFORMATION, VIDEO_STREAM_INFORMATION):
+        client.link.mav.command_long_send(1, mavlink.MAV_COMP_ID_CAMERA,
+                                          mavlink.MAV_CMD_REQUEST_MESSAGE, 0, kind, 0, 0, 0, 0, 0, 0)
+    camera = client.until("CAMERA_INFORMATION")
+    assert bytes(camera.vendor_name).startswith(b"gnbv")
+    assert camera.flags == mavlink.CAMERA_CAP_FLAGS_HAS_VIDEO_STREAM
+    video = client.until("VIDEO_STREAM_INFORMATION")
+    assert (video.framerate, video.resolution_h) == (10.0, camera.resolution_h)
+    assert (video.type, video.encoding) == (mavlink.VIDEO_STREAM_TYPE_RTPUDP,
+                                            mavlink.VIDEO_STREAM_ENCODING_H264)
 
 
 def test_nobody_else_is_heard(fly, connected):

@@ -2,11 +2,15 @@
 
 Frames are written here anew, byte by byte (MAVLink 2, https://mavlink.io/en/guide/serialization).
 """
+import ast
 import itertools
+import math
 import re
+import shutil
 import signal
 import socket
 import struct
+import subprocess
 import threading
 import time
 
@@ -122,6 +126,79 @@ def test_several_clients_hear_the_vehicle_under_its_number(run):
     run('fly smoke --local-origin nowhere', code=2)
 
 
+def record_of(file):
+    """Of a .npy file with one record: its fields, images as (shape, bytes)."""
+    data = file.read_bytes()
+    assert data[:8] == b'\x93NUMPY\x01\x00'
+    begin = 10 + int.from_bytes(data[8:10], 'little')
+    head = ast.literal_eval(data[10:begin].decode())
+    assert begin % 64 == 0 and head['shape'] == () and not head['fortran_order']
+    fields = {}
+    for name, kind, *shape in head['descr']:
+        count = math.prod(shape[0]) if shape else 1
+        bytes_ = data[begin:begin + count * int(kind[2:])]
+        begin += len(bytes_)
+        values = struct.unpack(f'<{count}{dict(u8="Q", f8="d", f4="f", u1="B")[kind[1:]]}', bytes_)
+        fields[name] = values if shape else values[0]
+        fields[f'{name} shape'] = shape[0] if shape else ()
+    assert begin == len(data)
+    return fields
+
+
+def newest(process, tmp_path, after=0):
+    """The first frame of a camera after that one."""
+    found = []
+
+    def is_there():
+        for file in (tmp_path / 'frames').glob('*.npy'):
+            found[:] = [record_of(file)]
+        return found and found[0]['sequence'] > after
+
+    until(60, 'a frame', is_there)
+    assert process.poll() is None
+    return found[0]
+
+
+def test_the_newest_frame_is_a_file_and_ends_with_the_flight(flying, tmp_path):
+    process = flying(f'{PORT} --frames frames --frames-hz 20')
+    first = newest(process, tmp_path)
+    second = newest(process, tmp_path, after=first['sequence'] + 3)
+    passed_s = second['time_s'] - first['time_s']
+    assert passed_s >= 0.05 * (second['sequence'] - first['sequence']) - 0.02
+    # the ground before a vehicle that stands on it: of every pixel of a row the same height
+    height, width = second['depth_m shape']
+    rows = [second['depth_m'][row * width:(row + 1) * width] for row in range(height)]
+    row = max(r for r in range(height) if math.isfinite(sum(rows[r])))  # nearer ones are too near
+    fx, _, cx, _, fy, cy = second['K'][:6]
+    down = second['T_body_camera'][8:12]
+    v = (row + 0.5 - cy) / fy
+    heights_m = sorted(-rows[row][u] * (down[0] * (u + 0.5 - cx) / fx + down[1] * v + down[2])
+                       for u in range(width))
+    middle_m = heights_m[width // 2]
+    assert 0.02 < middle_m < 0.5
+    assert sum(abs(h - middle_m) < 2e-3 for h in heights_m) > 0.9 * width
+    assert second['rgb shape'] == (height, width, 3) and len(set(second['rgb'])) > 20
+    process.send_signal(signal.SIGINT)
+    assert end_of(process).code == 0 and not list((tmp_path / 'frames').iterdir())
+
+
+@pytest.mark.skipif(not shutil.which('ffmpeg'), reason='no ffmpeg')
+def test_video_shows_what_the_frames_do(flying, client, tmp_path):
+    port = client.getsockname()[1] & ~1  # RTCP takes the next one
+    client.close()
+    (tmp_path / 'video.sdp').write_text(
+        f'v=0\no=- 0 0 IN IP4 127.0.0.1\ns=gnbv\nc=IN IP4 127.0.0.1\nt=0 0\n'
+        f'm=video {port} RTP/AVP 96\na=rtpmap:96 H264/90000\n')
+    process = flying(f'{PORT} --frames frames --video rtp://127.0.0.1:{port}')
+    seen = subprocess.run(
+        ['ffmpeg', '-v', 'error', '-protocol_whitelist', 'file,udp,rtp', '-i', 'video.sdp',
+         '-frames:v', '1', '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'],
+        cwd=tmp_path, capture_output=True, timeout=120).stdout
+    frame = newest(process, tmp_path)['rgb']
+    assert len(seen) == len(frame)
+    assert sum(abs(a - b) for a, b in zip(seen, frame)) < 6 * len(frame), 'it stands still'
+
+
 def test_ctrl_c_is_an_ordinary_end(flying):
     process = flying(PORT)
     process.send_signal(signal.SIGINT)
@@ -170,6 +247,8 @@ def test_a_flood_does_not_stop_time(flying, client, longest):
     'smoke --mavlink udp://127.0.0.1', 'smoke --mavlink udpout://127.0.0.1:0',
     'smoke --mavlink udpout://0.0.0.0:14540', 'smoke --mavlink udp://8.8.8.8:14540',
     'smoke --mavlink udp://no-such-host.invalid:14540', f'{PORT} --speed 0', f'{PORT} --duration 0',
+    f'{PORT} --frames /proc/none', f'{PORT} --video udp://127.0.0.1:5600',
+    f'{PORT} --video rtp://127.0.0.1:0', f'{PORT} --frames f --frames-hz 0',
     f'{PORT} --set vehicle.kind=ideal', f'{PORT} --set structure.ground=false', 'no-such-scenario',
     # the tower's wall stands at x = 0.04: the start is above it, the ground below is in it
     f"{PORT} --set 'start={{position_m: [0.04, 0.12, 4], jitter_m: [0, 0, 0]}}'"])

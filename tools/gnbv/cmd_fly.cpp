@@ -10,6 +10,7 @@
 #include "sim/mavlink/serve.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
+#include "tools/live/camera_stream.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -24,8 +25,11 @@ struct FlyOptions {
   std::string local_origin = "home";
   double speed = 1.0;
   double duration_s = 0.0;
+  CameraStreamOptions cameras;
   bool json = false;
 };
+
+constexpr std::string_view kRtp = "rtp://";
 
 constexpr std::array<std::string_view, 3> kServeEndNames = {"stopped", "duration", "collision"};
 
@@ -152,6 +156,29 @@ void say_ready(const FlyOptions& options, const mavlink::Meeting& meeting,
       vehicle.system_id, start.p_world_m.x(), start.p_world_m.y(), options.speed);
 }
 
+/// What the cameras see, for others, if they are to; what MAVLink says of it is then aboard.
+std::unique_ptr<CameraStream> stream_of(const FlyOptions& options, const Scenario& scenario,
+                                        const RayScene& scene, mavlink::Aboard& aboard) {
+  CameraStreamOptions stream = options.cameras;
+  if (stream.folder.empty() && stream.video_url.empty()) return nullptr;
+  stream.seed = scenario.seed;
+  stream.speed = options.speed;
+  std::vector<CameraModel> cameras;
+  for (const CameraConfig& camera : scenario.cameras) cameras.push_back(make_camera_model(camera));
+  if (!stream.video_url.empty() && !cameras.empty()) {
+    const CameraModel& first = cameras.front();
+    const mavlink::Meeting to =
+        mavlink::resolve_meeting("udpout://" + stream.video_url.substr(kRtp.size()));
+    aboard.video = mavlink::VideoStream{.camera = first.config.name,
+                                        .width_px = first.config.width_px,
+                                        .height_px = first.config.height_px,
+                                        .rate_hz = stream.rate_hz,
+                                        .fov_x_deg = rad_to_deg(first.sight_rad.sizes().x()),
+                                        .port = to.address.port};
+  }
+  return std::make_unique<CameraStream>(scene, std::move(cameras), std::move(stream));
+}
+
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
@@ -160,7 +187,8 @@ void fly(const FlyOptions& options) {
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
-  const ViewPose start = ground_start(scenario, world, RayScene(world));
+  const RayScene scene(world);
+  const ViewPose start = ground_start(scenario, world, scene);
   Quadrotor vehicle(scenario.vehicle, world, start, scenario.seed, Px4::Start::on_ground,
                     scenario.wind);
   mavlink::Aboard aboard{.system_id = static_cast<std::uint8_t>(scenario.vehicle.system_id),
@@ -168,6 +196,7 @@ void fly(const FlyOptions& options) {
   if (options.local_origin == "home") {
     aboard.origin_world_m = vehicle.state().T_world_body.translation();
   }
+  const std::unique_ptr<CameraStream> cameras = stream_of(options, scenario, scene, aboard);
   Stations stations;
   for (const mavlink::Meeting& meeting : meetings) {
     stations.push_back(std::make_unique<Station>(aboard, meeting));
@@ -184,11 +213,16 @@ void fly(const FlyOptions& options) {
     say("this machine does not always keep up with --speed {}: it does not catch up lost time",
         options.speed);
   };
+  const auto show = [&cameras](const Quadrotor& flown) {
+    if (!cameras) return;
+    cameras->offer(flown.state().T_world_body, kTick_s * static_cast<double>(flown.tick()));
+  };
   const ServeResult result = serve(vehicle, aboard, stations,
                                    {.speed = options.speed,
                                     .duration_s = options.duration_s,
                                     .should_stop = InterruptGuard::requested,
-                                    .on_lag = on_lag});
+                                    .on_lag = on_lag,
+                                    .on_turn = show});
   const nlohmann::ordered_json summary = summary_of(scenario, vehicle, stations, result);
   fmt::print("{}", options.json ? summary.dump(2) + "\n" : text_of(summary));
   if (result.end == ServeEnd::collision) {
@@ -237,6 +271,22 @@ void add_fly_command(CLI::App& app) {
   command
       ->add_option("--duration", options->duration_s, "simulated seconds (default: until Ctrl-C)")
       ->check(CLI::Range(0.004, 1e9));
+  command->add_option("--frames", options->cameras.folder,
+                      "folder for the newest frame of each camera, CAMERA.npy: numpy.load() reads "
+                      "depth, colour, K and time; under /dev/shm it is memory");
+  command
+      ->add_option(
+          "--video", options->cameras.video_url,
+          "rtp://HOST:PORT, to which ffmpeg sends the colour of the first camera as H.264; "
+          "QGroundControl waits at port 5600")
+      ->check([](const std::string& url) {
+        return url.starts_with(kRtp) ? "" : fmt::format("value '{}': write rtp://HOST:PORT", url);
+      });
+  command
+      ->add_option("--frames-hz", options->cameras.rate_hz,
+                   "frames of each camera a simulated second, as far as the machine keeps up")
+      ->check(CLI::Range(0.01, 250.0))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "print the summary as JSON");
   command->callback([options] { fly(*options); });
 }

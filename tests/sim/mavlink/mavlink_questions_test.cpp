@@ -3,9 +3,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "sim/core/rng.hpp"
 #include "sim/mavlink/endpoint.hpp"
@@ -64,6 +66,51 @@ TEST(MavlinkQuestions, AskedForAMessageItComesAndWhatIsNoneIsUnsupported) {
     EXPECT_EQ(session.result_of(kSetMessageInterval, id, 1000), 3) << id;
   }
   EXPECT_EQ(session.result_of(kSetMessageInterval, Attitude::kInfo.id, std::nanf("")), 3);
+}
+
+TEST(MavlinkQuestions, ACameraIsAComponentOfItsOwnWhereThereIsVideo) {
+  constexpr std::uint8_t kCameraComponent = 100;
+  const auto ask_camera = [&](Session& session, std::uint16_t command, float param1) {
+    session.send(CommandLong{.param = {param1},
+                             .command = command,
+                             .target_system = 1,
+                             .target_component = kCameraComponent});
+    session.listen();
+  };
+  Session blind;
+  ask_camera(blind, kRequestMessage, CameraInformation::kInfo.id);
+  EXPECT_EQ(blind.count<CommandAck>(), 0U) << "nobody is there";
+  EXPECT_EQ(blind.result_of(kRequestMessage, CameraInformation::kInfo.id), 3);
+
+  Session session({.video = VideoStream{.camera = "front",
+                                        .width_px = 640,
+                                        .height_px = 480,
+                                        .rate_hz = 10.0,
+                                        .fov_x_deg = 60.0,
+                                        .port = 5600}});
+  session.send(Heartbeat{});
+  session.step_for(3);
+  std::map<std::uint8_t, int> beats;  // by component
+  for (const Frame& frame : session.frames<Heartbeat>()) ++beats[frame.component_id];
+  EXPECT_EQ(beats[1], beats[kCameraComponent]);
+  EXPECT_GE(beats[1], 3);
+  constexpr std::array<std::pair<int, float>, 2> kQuestions = {{{512, 259.0F}, {521, 1.0F}}};
+  for (const auto& [command, param] : kQuestions) {
+    session.forget();
+    ask_camera(session, static_cast<std::uint16_t>(command), param);
+    ASSERT_EQ(session.count<CameraInformation>(), 1U);
+    for (const Frame& ack : session.frames<CommandAck>()) EXPECT_EQ(ack.component_id, 100);
+    EXPECT_EQ(session.last<CommandAck>().result, 0);
+    EXPECT_EQ(session.last<CameraInformation>().width_px, 640);
+  }
+  ask_camera(session, kRequestMessage, VideoStreamInformation::kInfo.id);
+  const auto video = session.last<VideoStreamInformation>();
+  EXPECT_EQ(std::string(video.uri.data()), "5600");
+  EXPECT_EQ(std::string(video.name.data()), "front");
+  EXPECT_EQ(video.fov_x_deg, 60);
+  ask_camera(session, kArmDisarm, 1);
+  EXPECT_EQ(session.last<CommandAck>().result, 3) << "a camera does not fly";
+  EXPECT_FALSE(session.vehicle().px4().is_armed());
 }
 
 TEST(MavlinkQuestions, EveryParameterIsListedOnceAndCanBeReadBothWays) {

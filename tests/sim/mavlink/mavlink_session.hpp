@@ -123,6 +123,10 @@ class Session {
     return messages;
   }
   template <typename Message>
+  const std::vector<Frame>& frames() {
+    return heard_[Message::kInfo.id];
+  }
+  template <typename Message>
   Message last() {
     return message_of<Message>(heard_[Message::kInfo.id].back().payload);
   }
