@@ -212,6 +212,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
                     entry(looks::kSeen, LegendItem::Mark::dot),
                     {"vehicle" + larger, {looks::kFrontRotors.rgb()}},
                     entry(looks::kCamera, LegendItem::Mark::pyramid)};
+  if (!record.scenario.obstacles.empty()) picture.legend.push_back(entry(looks::kObstacle));
   if (!record.scenario.cameras.empty()) picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   return picture;

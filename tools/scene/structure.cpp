@@ -66,7 +66,7 @@ void add_movers(RunSource& run, double time_s, float opacity, RenderScene& scene
     add_in_one_colour(mesh, looks::kObstacle, opacity, scene);
     std::vector<Vec3> way = mover.motion.corners_m();
     for (Vec3& corner_m : way) corner_m += box_m.center();
-    scene.tubes.push_back(path_tube(way, 0.003 * box_m.diagonal().norm(), looks::kObstacle.rgb()));
+    scene.tubes.push_back(path_tube(way, 0.0015 * box_m.diagonal().norm(), looks::kObstacle.rgb()));
   }
 }
 
