@@ -40,8 +40,8 @@ DeclaredAxes declared_by(const XmlElement& root) {
 
 class ColladaReader {
  public:
-  explicit ColladaReader(const std::filesystem::path& path)
-      : file_(path, out_.warnings), textures_(path) {}
+  ColladaReader(const std::filesystem::path& path, bool keeps_uvs)
+      : keeps_uvs_(keeps_uvs), file_(path, out_.warnings), textures_(path) {}
 
   MeshScene read() {
     out_.declared = declared_by(file_.root());
@@ -180,7 +180,7 @@ class ColladaReader {
 
   void read_shape(const XmlElement& geometry,
                   std::vector<std::pair<std::string, std::size_t>>& to) {
-    const bool wants_uvs = bool(file_.root().child("library_images"));
+    const bool wants_uvs = keeps_uvs_ || bool(file_.root().child("library_images"));
     ColladaShape shape = collada_shape(file_, geometry, wants_uvs);
     faults_.insert(shape.faults.begin(), shape.faults.end());
     impossible_ += shape.impossible_faces;
@@ -215,7 +215,9 @@ class ColladaReader {
   std::optional<std::size_t> uv_set_of(std::size_t part, std::size_t material,
                                        const XmlElement& binds) const {
     const auto& looks = out_.parts[part].looks;
-    if (!out_.materials[material].texture.image || looks.empty()) return std::nullopt;
+    const bool has_picture = out_.materials[material].texture.image != nullptr;
+    if (looks.empty() || !(has_picture || keeps_uvs_)) return std::nullopt;
+    if (!has_picture) return looks.begin()->first;
     for (const XmlElement& input : binds.children("bind_vertex_input")) {
       if (input.attribute("semantic") != texcoords_.at(material)) continue;
       const double set =
@@ -294,6 +296,7 @@ class ColladaReader {
     return word == "CLAMP" || word == "BORDER" || word == "NONE" ? Wrap::clamp : Wrap::repeat;
   }
 
+  const bool keeps_uvs_;
   MeshScene out_;
   ColladaFile file_;
   TextureFiles textures_;
@@ -307,6 +310,8 @@ class ColladaReader {
 
 }  // namespace
 
-MeshScene read_collada(const std::filesystem::path& path) { return ColladaReader(path).read(); }
+MeshScene read_collada(const std::filesystem::path& path, bool keeps_uvs) {
+  return ColladaReader(path, keeps_uvs).read();
+}
 
 }  // namespace gnbv

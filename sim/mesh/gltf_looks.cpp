@@ -114,7 +114,7 @@ std::vector<CornerLook> GltfLooks::of_vertices(const Json& attributes, std::size
     }
   };
   const Placing& placing = placings_[material];
-  if (placing.is_used) {
+  if (placing.is_used || keeps_uvs_) {
     add(fmt::format("TEXCOORD_{}", placing.set),
         [&](std::size_t accessor) { add_uvs(accessor, placing, out); });
   }

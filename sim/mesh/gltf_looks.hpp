@@ -13,7 +13,8 @@ class GltfLooks {
  public:
   using Json = GltfFile::Json;
 
-  explicit GltfLooks(GltfFile& file) : file_(file), textures_(file.path()) {}
+  GltfLooks(GltfFile& file, bool keeps_uvs)
+      : file_(file), keeps_uvs_(keeps_uvs), textures_(file.path()) {}
 
   /// Those of the file, and a last one for faces without a material.
   std::vector<Material> materials();
@@ -40,6 +41,7 @@ class GltfLooks {
   void add_colours(std::size_t accessor, std::vector<CornerLook>& to);
 
   GltfFile& file_;
+  const bool keeps_uvs_;
   TextureFiles textures_;
   std::vector<Placing> placings_;  // by material
   std::set<std::string> faults_;

@@ -34,7 +34,8 @@ std::string compressed_by(std::string_view extension) {
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& path) : file_(path), looks_(file_) {}
+  GltfReader(const std::filesystem::path& path, bool keeps_uvs)
+      : file_(path), looks_(file_, keeps_uvs) {}
 
   MeshScene read() {
     check_extensions();
@@ -328,6 +329,8 @@ class GltfReader {
 
 }  // namespace
 
-MeshScene read_gltf(const std::filesystem::path& path) { return GltfReader(path).read(); }
+MeshScene read_gltf(const std::filesystem::path& path, bool keeps_uvs) {
+  return GltfReader(path, keeps_uvs).read();
+}
 
 }  // namespace gnbv

@@ -23,7 +23,7 @@ void check_config(const MeshFileConfig& config) {
   const auto need = [](bool holds, const std::string& fault) {
     if (!holds) throw BadInput("mesh: " + fault);
   };
-  const auto& [path, scale, yaw_rad, offset_m, up, unit_m, lost_max] = config;
+  const auto& [path, scale, yaw_rad, offset_m, up, unit_m, lost_max, keeps_uvs] = config;
   need(!path.empty(), "path is empty");
   need(scale > 0.0 && std::isfinite(scale), fmt::format("scale = {} is not positive", scale));
   need(unit_m >= 0.0 && std::isfinite(unit_m),
@@ -65,7 +65,8 @@ Matrix4 declare(const MeshFileConfig& config, const DeclaredAxes& declared, Mesh
 
 void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& reading) {
   const Matrix4 T_world_file = declare(config, {}, reading);
-  PolygonMesh polygons = (is_obj ? read_obj : read_ply)(config.path, reading.warnings);
+  PolygonMesh polygons = is_obj ? read_obj(config.path, reading.warnings, config.keeps_uvs)
+                                : read_ply(config.path, reading.warnings);
   if (polygons.face_ends.empty()) {
     throw BadInput(fmt::format("{}: {}", config.path, no_faces_text(polygons.vertices.size())));
   }
@@ -79,9 +80,9 @@ void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& readi
 }
 
 void read_scene(const MeshFileConfig& config, const std::string& extension, MeshReading& reading) {
-  MeshScene scene = (extension == ".stl"   ? read_stl
-                     : extension == ".dae" ? read_collada
-                                           : read_gltf)(config.path);
+  MeshScene scene = extension == ".stl"   ? read_stl(config.path)
+                    : extension == ".dae" ? read_collada(config.path, config.keeps_uvs)
+                                          : read_gltf(config.path, config.keeps_uvs);
   reading.mesh = assembled(scene, declare(config, scene.declared, reading), config.path);
   reading.warnings = std::move(scene.warnings);
   reading.lost_faces = scene.lost_faces;

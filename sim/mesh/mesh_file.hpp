@@ -21,6 +21,7 @@ struct MeshFileConfig {
   std::string up_axis = "auto";  // auto (as the file says, or z), x, y or z
   double unit_m = 0.0;           // metres per file unit; 0: as the file says, or metres
   double lost_max = 0.01;        // share of the faces that may be lost
+  bool keeps_uvs = false;        // of surfaces without a picture, too: one will be put on them
 };
 
 /// What a file, or the specification of its format, says about its coordinates; nothing where both

@@ -37,16 +37,17 @@ struct MeshScene {
 
 /// Normals are passed over, whatever they are. What is wrong with pictures, texture coordinates and
 /// colours is a warning.
-/// Each throws BadInput naming the file, and the place in it where there is one.
+/// Each throws BadInput naming the file, and the place in it where there is one. `keeps_uvs`: as
+/// MeshFileConfig's.
 
 /// Text or bytes. A facet of more than three vertices is a polygon.
 MeshScene read_stl(const std::filesystem::path& path);
 /// COLLADA 1.4 and 1.5: what the scene shows, skins in their bind pose.
-MeshScene read_collada(const std::filesystem::path& path);
+MeshScene read_collada(const std::filesystem::path& path, bool keeps_uvs = false);
 /// glTF 2, text or bytes: what the scene shows at rest, with default morph weights, skins,
 /// instances (EXT_mesh_gpu_instancing) and quantized positions. Refuses a required extension of
 /// shapes that it does not know.
-MeshScene read_gltf(const std::filesystem::path& path);
+MeshScene read_gltf(const std::filesystem::path& path, bool keeps_uvs = false);
 
 /// All instances in world coordinates, vertices joined where their positions are equal; mirrored
 /// ones keep their outsides out. Materials are those that faces use, in order of first use. Throws

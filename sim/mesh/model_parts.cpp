@@ -103,6 +103,13 @@ std::vector<double> numbers_of(const fs::path& document, const XmlElement& at, s
   return values;
 }
 
+std::array<float, 3> rgb_of(const fs::path& document, const XmlElement& at, std::string text) {
+  const auto v = numbers_of(document, at, std::move(text), {3, 4});
+  std::array<float, 3> rgb{};
+  for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+  return rgb;
+}
+
 Matrix4 placed(const Vec3& p_m, const Eigen::Matrix3d& R) {
   Matrix4 T = Matrix4::Identity();
   T.topLeftCorner<3, 3>() = R;
@@ -141,12 +148,13 @@ fs::path resolved(const fs::path& document, const XmlElement& at, std::string ur
   fail_at(document, at, fmt::format("'{}' is neither in {} nor above it", uri, folder.string()));
 }
 
-const TriangleMesh& ModelParts::mesh_at(const fs::path& file) {
+const TriangleMesh& ModelParts::mesh_at(const fs::path& file, bool keeps_uvs) {
   if (is_model(file)) throw BadInput(fmt::format("{}: is no mesh of a visual", file.string()));
-  const auto [entry, is_new] = meshes_.try_emplace(file.lexically_normal().string());
+  const auto [entry, is_new] = meshes_.try_emplace({file.lexically_normal().string(), keeps_uvs});
   if (!is_new) return entry->second;
   const bool is_collada = extension_of(file) == ".dae";
-  MeshReading part = read_mesh({.path = entry->first, .up_axis = is_collada ? "z" : "auto"});
+  MeshReading part = read_mesh(
+      {.path = entry->first.first, .up_axis = is_collada ? "z" : "auto", .keeps_uvs = keeps_uvs});
   if (!part.not_finite.empty() && reading.not_finite.empty()) reading.not_finite = part.not_finite;
   reading.lost_faces += part.lost_faces;
   reading.warnings.insert(reading.warnings.end(), part.warnings.begin(), part.warnings.end());
@@ -155,7 +163,8 @@ const TriangleMesh& ModelParts::mesh_at(const fs::path& file) {
   return entry->second = std::move(part.mesh);
 }
 
-TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& shape) {
+TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& shape,
+                                  bool keeps_uvs) {
   const std::string_view kind = shape.name();
   const auto sizes = [&](const char* name, std::size_t count) {
     const auto v = numbers_of(document, shape, value_of(document, shape, name), {count});
@@ -189,7 +198,8 @@ TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& sh
   if (shape.child("submesh")) fail_at(document, shape, "<submesh> is not read");
   const bool is_urdf = shape.attribute("filename").has_value();
   TriangleMesh mesh =
-      mesh_at(resolved(document, shape, value_of(document, shape, is_urdf ? "filename" : "uri")));
+      mesh_at(resolved(document, shape, value_of(document, shape, is_urdf ? "filename" : "uri")),
+              keeps_uvs);
   if (shape.attribute("scale") || shape.child("scale")) {
     auto v = numbers_of(document, shape, value_of(document, shape, "scale"), {1, 3});
     v.resize(3, v[0]);
@@ -199,7 +209,7 @@ TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& sh
 }
 
 void ModelParts::add(const fs::path& document, const XmlElement& geometry,
-                     const Matrix4& T_model_geometry, const Colour& colour) {
+                     const Matrix4& T_model_geometry, const Look& look) {
   const std::vector<XmlElement> shapes = geometry.children();
   if (shapes.size() != 1) {
     fail_at(document, geometry, fmt::format("<geometry> of {} shapes", shapes.size()));
@@ -209,12 +219,21 @@ void ModelParts::add(const fs::path& document, const XmlElement& geometry,
     ++planes_;
     return;
   }
-  TriangleMesh part = shape_of(document, shapes[0]);
+  TriangleMesh part = shape_of(document, shapes[0], look.texture.image != nullptr);
   transform(part, T_world_model_ * T_model_geometry);
   const Material& first = part.materials.front();
   if (part.materials.size() == 1 &&
       (first.name == Material{}.name || first.name == kDefaultMaterial)) {
-    part.materials[0] = {.name = "model", .rgb = colour.value_or(kDefaultColour)};
+    part.materials[0] = {.name = "model", .rgb = look.rgb.value_or(kDefaultColour)};
+  }
+  if (look.texture.image && part.face_looks.empty()) {
+    pictures_.miss(look.texture.name, "of shapes without texture coordinates");
+  } else if (look.texture.image) {
+    for (Material& material : part.materials) {
+      if (material.texture.image) continue;
+      material.rgb = {1.0F, 1.0F, 1.0F};
+      material.texture = look.texture;
+    }
   }
   if (reading.mesh.faces.size() + part.faces.size() > kMostModelFaces) {
     fail_at(document, geometry, fmt::format("more than {} faces", kMostModelFaces));
@@ -227,7 +246,18 @@ void ModelParts::add(const fs::path& document, const XmlElement& geometry,
   }
 }
 
-void ModelParts::warn_of_planes(const fs::path& document) {
+Texture ModelParts::picture(const fs::path& document, const XmlElement& at,
+                            const std::string& uri) {
+  try {
+    return pictures_.at(resolved(document, at, uri).string(), {});
+  } catch (const BadInput&) {
+    return pictures_.at(trimmed(uri), {});  // beside it under its last name, or not there
+  }
+}
+
+void ModelParts::finish(const fs::path& document) {
+  pictures_.warn(reading.warnings);
+  reading.files.insert(reading.files.end(), pictures_.files().begin(), pictures_.files().end());
   if (planes_ == 0) return;
   reading.warnings.push_back(
       fmt::format("{}: {} planes or heightmaps left out: the ground is "
@@ -257,9 +287,9 @@ fs::path model_file_of(const fs::path& path) {
 }
 
 MeshReading read_model(const fs::path& path, const Matrix4& T_world_model) {
-  ModelParts parts(T_world_model);
+  ModelParts parts(path, T_world_model);
   (extension_of(path) == ".urdf" ? read_urdf : read_sdf)(path, parts);
-  parts.warn_of_planes(path);
+  parts.finish(path);
   return std::move(parts.reading);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/mesh/mesh_file.hpp"
+#include "sim/mesh/texture_file.hpp"
 #include "sim/mesh/xml_tree.hpp"
 
 namespace gnbv {
@@ -29,24 +30,35 @@ std::filesystem::path model_file_of(const std::filesystem::path& path);
 class ModelParts {
  public:
   using Matrix4 = Eigen::Matrix4d;
-  using Colour = std::optional<std::array<float, 3>>;
+  /// What the material of a visual says.
+  struct Look {
+    std::optional<std::array<float, 3>> rgb = {};
+    Texture texture = {};
+  };
 
-  explicit ModelParts(const Matrix4& T_world_model) : T_world_model_(T_world_model) {}
+  ModelParts(const std::filesystem::path& path, const Matrix4& T_world_model)
+      : T_world_model_(T_world_model), pictures_(path) {}
 
   /// Adds what a <geometry> of a document holds: box, sphere, cylinder, capsule, cone, ellipsoid or
-  /// mesh, of URDF or SDF. The colour is of what has none of its own.
+  /// mesh, of URDF or SDF. The look is of what has none of its own.
   void add(const std::filesystem::path& document, const XmlElement& geometry,
-           const Matrix4& T_model_geometry, const Colour& colour);
-  void warn_of_planes(const std::filesystem::path& document);
+           const Matrix4& T_model_geometry, const Look& look);
+  /// The picture that a material names; one that is not there is none, with a warning.
+  Texture picture(const std::filesystem::path& document, const XmlElement& at,
+                  const std::string& uri);
+  /// Appends what has to be said of planes and pictures. All is added.
+  void finish(const std::filesystem::path& document);
 
   MeshReading reading;
 
  private:
-  TriangleMesh shape_of(const std::filesystem::path& document, const XmlElement& shape);
-  const TriangleMesh& mesh_at(const std::filesystem::path& file);
+  TriangleMesh shape_of(const std::filesystem::path& document, const XmlElement& shape,
+                        bool keeps_uvs);
+  const TriangleMesh& mesh_at(const std::filesystem::path& file, bool keeps_uvs);
 
   Matrix4 T_world_model_;
-  std::map<std::string, TriangleMesh> meshes_;  // by path
+  std::map<std::pair<std::string, bool>, TriangleMesh> meshes_;  // by path and keeps_uvs
+  TextureFiles pictures_;                                        // of materials, not of meshes
   std::size_t planes_ = 0;
 };
 
@@ -56,6 +68,10 @@ class ModelParts {
 /// The numbers of a text, as many as `counts` allows. Throws BadInput naming the element.
 std::vector<double> numbers_of(const std::filesystem::path& document, const XmlElement& at,
                                std::string text, std::initializer_list<std::size_t> counts);
+
+/// Three of a text's three or four numbers, each in [0, 1]. Throws as numbers_of().
+std::array<float, 3> rgb_of(const std::filesystem::path& document, const XmlElement& at,
+                            std::string text);
 
 /// Roll, pitch and yaw about fixed axes, rad.
 Eigen::Matrix4d placed(const Vec3& p_m, const Eigen::Matrix3d& R);

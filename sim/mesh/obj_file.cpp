@@ -91,8 +91,13 @@ class ObjReader {
  public:
   /// `mtl` is the text of every material library; without it they are files beside `path`.
   ObjReader(std::istream& file, const std::filesystem::path& path,
-            std::optional<std::string_view> mtl, std::vector<std::string>& warnings)
-      : path_(path), file_(file), mtl_(mtl), warnings_(warnings), materials_(path.string()) {}
+            std::optional<std::string_view> mtl, std::vector<std::string>& warnings, bool keeps_uvs)
+      : path_(path),
+        file_(file),
+        mtl_(mtl),
+        warnings_(warnings),
+        keeps_uvs_(keeps_uvs),
+        materials_(path.string()) {}
 
   PolygonMesh read() {
     std::string statement;
@@ -173,7 +178,7 @@ class ObjReader {
     out_.files.insert(out_.files.end(), textures.files().begin(), textures.files().end());
     const bool has_pictures = std::ranges::any_of(
         out_.materials, [](const Material& material) { return material.texture.image != nullptr; });
-    if (!has_pictures || corner_uvs_.empty()) return;
+    if (!(has_pictures || keeps_uvs_) || corner_uvs_.empty()) return;
     corner_uvs_.resize(out_.corners.size(), kNoVertex);
     out_.corner_looks.resize(out_.corners.size());
     std::size_t corner = 0;
@@ -272,6 +277,7 @@ class ObjReader {
   std::istream& file_;
   std::optional<std::string_view> mtl_;
   std::vector<std::string>& warnings_;
+  const bool keeps_uvs_;
   static constexpr long long kMostUvs = kNoVertex;
   PolygonMesh out_;
   std::vector<Vec2f> uvs_;                 // of the vt
@@ -290,15 +296,16 @@ class ObjReader {
 
 }  // namespace
 
-PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings) {
+PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings,
+                     bool keeps_uvs) {
   std::ifstream file = open_file(path);
-  return ObjReader(file, path, std::nullopt, warnings).read();
+  return ObjReader(file, path, std::nullopt, warnings, keeps_uvs).read();
 }
 
 PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view obj,
                           std::string_view mtl, std::vector<std::string>& warnings) {
   std::istringstream text{std::string(obj)};
-  return ObjReader(text, path, mtl, warnings).read();
+  return ObjReader(text, path, mtl, warnings, false).read();
 }
 
 }  // namespace gnbv

@@ -40,8 +40,9 @@ struct PolygonMesh {
 /// Leaves out unreadable lines, faces of vertices that do not exist and surfaces that are no
 /// polygons, and counts them in `warnings`. Throws BadInput naming the line where that could number
 /// vertices wrongly: a line beside a vertex that begins with no keyword, with more vertices after
-/// it.
-PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings);
+/// it. `keeps_uvs`: as MeshFileConfig's.
+PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings,
+                     bool keeps_uvs = false);
 /// The same of a text and that of its material library. Messages call the text `path`.
 PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view obj,
                           std::string_view mtl, std::vector<std::string>& warnings);

@@ -154,19 +154,22 @@ class SdfReader {
       const std::string name = link.attribute("name").value_or("");
       for (const XmlElement& visual : link.children("visual")) {
         to_.add(document, visual.child("geometry"), T_world_model * frames.T_model_of(visual, name),
-                colour_of(document, visual));
+                look_of(document, visual));
       }
     }
     add_models(document, model, T_world_model, nullptr);
   }
 
-  static ModelParts::Colour colour_of(const fs::path& document, const XmlElement& visual) {
-    const XmlElement diffuse = visual.child("material").child("diffuse");
-    if (!diffuse) return std::nullopt;
-    const auto v = numbers_of(document, diffuse, diffuse.text(), {3, 4});
-    std::array<float, 3> rgb{};
-    for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
-    return rgb;
+  ModelParts::Look look_of(const fs::path& document, const XmlElement& visual) {
+    const XmlElement material = visual.child("material");
+    ModelParts::Look look;
+    const XmlElement diffuse = material.child("diffuse");
+    if (diffuse) look.rgb = rgb_of(document, diffuse, diffuse.text());
+    for (const char* workflow : {"metal", "specular"}) {
+      const XmlElement albedo = material.child("pbr").child(workflow).child("albedo_map");
+      if (albedo) look.texture = to_.picture(document, albedo, albedo.text());
+    }
+    return look;
   }
 
   ModelParts& to_;

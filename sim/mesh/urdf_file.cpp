@@ -23,7 +23,7 @@ class UrdfReader {
         fail_at(path_, element, "is xacro: `xacro FILE.xacro > FILE.urdf` expands it");
       }
     });
-    for (const XmlElement& material : robot.children("material")) colour_of(material);
+    for (const XmlElement& material : robot.children("material")) look_of(material);
     for (const XmlElement& link : robot.children("link")) {
       links_.emplace(link.attribute("name").value_or(""), Link{.element = link});
     }
@@ -76,26 +76,27 @@ class UrdfReader {
     }
     for (const XmlElement& visual : link.element.children("visual")) {
       to_.add(path_, visual.child("geometry"), T_root_link * origin_of(visual),
-              colour_of(visual.child("material")));
+              look_of(visual.child("material")));
     }
   }
 
   /// Remembers it by name.
-  ModelParts::Colour colour_of(const XmlElement& material) {
-    const std::string name = material.attribute("name").value_or("");
-    const XmlElement colour = material.child("color");
-    if (!colour) return colours_[name];
-    const auto v = numbers_of(path_, colour, colour.attribute("rgba").value_or(""), {3, 4});
-    std::array<float, 3> rgb{};
-    for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
-    return colours_[name] = rgb;
+  const ModelParts::Look& look_of(const XmlElement& material) {
+    ModelParts::Look& look = looks_[material.attribute("name").value_or("")];
+    const XmlElement colour = material.child("color"), texture = material.child("texture");
+    if (colour || texture) look = {};  // of no name, or said again
+    if (colour) look.rgb = rgb_of(path_, colour, colour.attribute("rgba").value_or(""));
+    if (texture) {
+      look.texture = to_.picture(path_, texture, texture.attribute("filename").value_or(""));
+    }
+    return look;
   }
 
   const std::filesystem::path& path_;
   ModelParts& to_;
   XmlTree tree_;
   std::map<std::string, Link> links_;
-  std::map<std::string, ModelParts::Colour> colours_;
+  std::map<std::string, ModelParts::Look> looks_;
 };
 
 }  // namespace

@@ -507,6 +507,47 @@ TEST_F(PictureFile, AModelsMeshesBringTheirs) {
   EXPECT_EQ(reading.files.size(), 2U);
 }
 
+TEST_F(PictureFile, ModelsPutPicturesOnMeshesThatHaveNone) {
+  write("plain.obj", replaced(replaced(kObj, "mtllib m.mtl\n", ""), "usemtl m\n", ""));
+  std::filesystem::create_directories(folder_ / "skin/materials/textures");
+  std::filesystem::copy(folder_ / "four.png", folder_ / "skin/materials/textures/a b.png");
+  const auto sdf = [](const std::string& geometry, const std::string& uri) {
+    return "<sdf version='1.9'><model name='m'><link name='l'><visual name='v'>" + geometry +
+           "<material><diffuse>1 0 0 1</diffuse><pbr><metal><albedo_map>" + uri +
+           "</albedo_map></metal></pbr></material></visual></link></model></sdf>";
+  };
+  const std::string mesh = "<geometry><mesh><uri>plain.obj</uri></mesh></geometry>";
+  const std::string uri = "model://skin/materials/textures/a%20b.png";
+  expect_upright(read("m.sdf", sdf(mesh, uri)));
+  GltfSquare square;
+  square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
+  write("square.bin", square.bytes);
+  write("plain.gltf", square.json());
+  expect_upright(
+      read("m.sdf",
+           sdf("<pose>0 0 0 -1.5707963267948966 0 0</pose>" + replaced(mesh, "obj", "gltf"), uri)));
+  std::string dae = replaced(kDae, "#w\" offset=\"1\" set=\"0\"", "#w\" offset=\"1\" set=\"2\"");
+  const std::size_t images = dae.find("<library_images>");
+  dae.erase(images, dae.find("<library_geometries>") - images);
+  write("plain.dae", dae);
+  expect_upright(read("m.sdf", sdf(replaced(mesh, "obj", "dae"), uri)));
+  expect_upright(read("m.urdf", "<robot><material name='skin'><texture filename='package://" +
+                                    uri.substr(8) +
+                                    "'/></material><link name='l'><visual><geometry><mesh "
+                                    "filename='plain.obj'/></geometry><material name='skin'/>"
+                                    "</visual></link></robot>"));
+  for (const auto& [geometry, picture, why] : std::vector<std::array<std::string, 3>>{
+           {mesh, "gone.png", "not there"},
+           {mesh, "plain.obj", "neither PNG nor JPEG"},
+           {"<geometry><box><size>1 1 1</size></box></geometry>", "four.png",
+            "without texture coordinates"}}) {
+    const MeshReading reading = read("m.sdf", sdf(geometry, picture));
+    ASSERT_EQ(reading.warnings.size(), 1U);
+    EXPECT_TRUE(test::says(reading.warnings[0], {picture, why}));
+    EXPECT_EQ(colour(reading.mesh, 0.25, 0.25), kRed) << "the colour beside it";
+  }
+}
+
 TEST_F(PictureFile, AMeshIsReadFromItsFilesAllOfThem) {
   write("m.mtl", "newmtl m\nmap_Kd four.png\n");
   const auto names = [](const MeshReading& reading) {
