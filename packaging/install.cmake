@@ -41,7 +41,7 @@ install(TARGETS ${libraries} EXPORT gnbv-targets ARCHIVE COMPONENT dev)
 install(EXPORT gnbv-targets NAMESPACE gnbv:: DESTINATION ${config_folder} COMPONENT dev)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES packaging/gnbv-config.cmake ${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
   DESTINATION ${config_folder} COMPONENT dev)
 install(SCRIPT packaging/install_headers.cmake COMPONENT dev)

@@ -7,7 +7,8 @@
 
 namespace gnbv {
 
-/// Draws scenes off screen with Mesa, on the CPU, which is loaded here, at run time. Use from one thread.
+/// Draws scenes off screen with Mesa on the CPU, which is loaded here, at run time. Use from one
+/// thread.
 class Renderer {
  public:
   /// Throws BadInput when Mesa is missing or too old, naming the Debian packages.
