@@ -41,7 +41,7 @@ install(TARGETS ${libraries} EXPORT gnbv-targets ARCHIVE COMPONENT dev)
 install(EXPORT gnbv-targets NAMESPACE gnbv:: DESTINATION ${config_folder} COMPONENT dev)
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES packaging/gnbv-config.cmake ${PROJECT_BINARY_DIR}/gnbv-config-version.cmake
   DESTINATION ${config_folder} COMPONENT dev)
 install(SCRIPT packaging/install_headers.cmake COMPONENT dev)
@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME gnbv)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)  # what is linked; the rest is opened or run by name
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6, fonts-dejavu-core")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6 | libegl-mesa0, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-matplotlib, python3-jinja2, python3-pil")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-numpy")

@@ -1,12 +1,11 @@
 // The world as Embree holds it.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <cstdint>
 #include <memory>
 
+#include "sensors/embree.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {

@@ -14,18 +14,10 @@ constexpr std::size_t kPacket = RayPacket::kRays;
 
 using Lanes = std::array<int, kPacket>;  // -1 for those that Embree traces
 
-RTCIntersectContext coherent_context() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
-
-void trace(const EmbreeScene& world, const Lanes& valid, float far_m, RTCIntersectContext& context,
-           RTCRayHit16& packet) {
+void trace(const EmbreeScene& world, const Lanes& valid, float far_m, RTCRayHit16& packet) {
   std::fill_n(packet.ray.tfar, kPacket, far_m);
   std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-  rtcIntersect16(valid.data(), world.scene.get(), &context, &packet);
+  intersect16(valid.data(), world.scene.get(), packet);
 }
 
 // These two read everything first and then choose, so that the compiler can do 16 lanes at once.
@@ -48,7 +40,6 @@ template <typename Also, typename Store>
 void trace_packets(const EmbreeScene& world, const Also& also, const Vec3f& origin_world_m,
                    std::span<const RayPacket> directions_world, float near_m, float far_m,
                    const Store& store) {
-  RTCIntersectContext context = coherent_context();
   RTCRayHit16 packet{};  // Embree writes only tfar and the hit
   std::fill_n(packet.ray.org_x, kPacket, origin_world_m.x());
   std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
@@ -62,7 +53,7 @@ void trace_packets(const EmbreeScene& world, const Also& also, const Vec3f& orig
     std::memcpy(packet.ray.dir_x, directions_world[i].x.data(), sizeof packet.ray.dir_x);
     std::memcpy(packet.ray.dir_y, directions_world[i].y.data(), sizeof packet.ray.dir_y);
     std::memcpy(packet.ray.dir_z, directions_world[i].z.data(), sizeof packet.ray.dir_z);
-    trace(world, valid, far_m, context, packet);
+    trace(world, valid, far_m, packet);
     also(valid, packet);
     store(i, packet);
   }
@@ -138,11 +129,10 @@ void RayScene::trace_movers(std::span<const int, kPacket> valid, float far_m,
   if (!has_time_) return;
   Lanes lanes;
   std::ranges::copy(valid, lanes.begin());
-  RTCIntersectContext context = coherent_context();
   for (const Mover& mover : movers_) {
     RTCRayHit16 other = packet;
     move_back(mover.offset_m, other.ray);
-    trace(*mover.body, lanes, far_m, context, other);
+    trace(*mover.body, lanes, far_m, other);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (other.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
       const bool is_first = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID ||
@@ -159,11 +149,10 @@ void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRa
   if (!has_time_) return;
   Lanes lanes;
   std::ranges::copy(valid, lanes.begin());
-  RTCIntersectContext context = coherent_context();
   for (const Mover& mover : movers_) {
     RTCRay16 other = packet;
     move_back(mover.offset_m, other);
-    rtcOccluded16(lanes.data(), mover.body->scene.get(), &context, &other);
+    occluded16(lanes.data(), mover.body->scene.get(), other);
     std::ranges::copy(other.tfar, std::begin(packet.tfar));
   }
 }
@@ -215,12 +204,11 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
                           std::span<const Vec3f> directions_world, float near_m, float far_m,
                           std::span<RayHit> hits) const {
   need_answers(hits.size(), directions_world.size());
-  RTCIntersectContext context = coherent_context();
   RTCRayHit16 packet{};
   for_each_ray(
       origins_world_m, directions_world, near_m, kAllParts, packet.ray,
       [&](const Lanes& valid) {
-        trace(*embree_, valid, far_m, context, packet);
+        trace(*embree_, valid, far_m, packet);
         trace_movers(valid, far_m, packet);
       },
       [&](std::size_t i, std::size_t lane) {
@@ -232,13 +220,12 @@ void RayScene::find_blocked(unsigned parts, std::span<const Vec3f> origins_world
                             std::span<const Vec3f> directions_world, float near_m, float far_m,
                             std::span<std::uint8_t> blocked) const {
   need_answers(blocked.size(), directions_world.size());
-  RTCIntersectContext context = coherent_context();
   RTCRay16 packet{};
   for_each_ray(
       origins_world_m, directions_world, near_m, parts, packet,
       [&](const Lanes& valid) {
         std::fill_n(packet.tfar, kPacket, far_m);
-        rtcOccluded16(valid.data(), embree_->scene.get(), &context, &packet);
+        occluded16(valid.data(), embree_->scene.get(), packet);
         if ((parts & kObstaclePart) != 0) find_blocked_by_movers(valid, packet);
       },
       [&](std::size_t i, std::size_t lane) {

@@ -1,12 +1,11 @@
 #include "bench/reference/bare_embree.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <vector>
 
+#include "sensors/embree.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
@@ -50,9 +49,6 @@ struct BareEmbree::Impl {
   }
 
   std::size_t trace_some(std::span<const Directions> some, float far_m) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) std::array<int, kPacket> valid{};
     valid.fill(-1);
     RTCRayHit16 packet{};
@@ -67,7 +63,7 @@ struct BareEmbree::Impl {
       std::copy(directions.z.begin(), directions.z.end(), packet.ray.dir_z);
       std::fill_n(packet.ray.tfar, kPacket, far_m);
       std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-      rtcIntersect16(valid.data(), scene, &context, &packet);
+      intersect16(valid.data(), scene, packet);
       for (const unsigned id : packet.hit.geomID) hits += id != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
     }
     return hits;

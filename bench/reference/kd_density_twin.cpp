@@ -80,7 +80,7 @@ struct KdDensityTwin::State {
     for (std::size_t i = first; i < end; ++i) {
       // a little more: nanoflann leaves out the border, and rounds where it cuts off branches
       nanoflann::RadiusResultSet<float, std::uint32_t> set(radius2_m2 * 1.00001F, found);
-      tree.findNeighbors(set, points.points_m[i].data(), nanoflann::SearchParams());
+      tree.findNeighbors(set, points.points_m[i].data(), {});
       std::uint64_t near = 0;
       for (const auto& [point, distance2_m2] : found) {
         if (distance2_m2 > radius2_m2) continue;
@@ -98,10 +98,13 @@ struct KdDensityTwin::State {
   GrowingPoints points;
   DynamicTree tree{3, points, nanoflann::KDTreeSingleIndexAdaptorParams(16)};
   std::unordered_set<std::uint64_t> taken;
-  std::unordered_map<std::uint64_t, LeafSum> sums;     // of a batch
-  std::vector<std::uint64_t> order;                    // its new leaves
-  std::vector<VoxelIndex> voxel_of;                    // of each point
-  std::vector<std::pair<std::uint32_t, float>> found;  // of a search
+  std::unordered_map<std::uint64_t, LeafSum> sums;  // of a batch
+  std::vector<std::uint64_t> order;                 // its new leaves
+  std::vector<VoxelIndex> voxel_of;                 // of each point
+  // of a search: pairs, or since nanoflann 1.5 a struct of the same names
+  std::remove_reference_t<
+      decltype(nanoflann::RadiusResultSet<float, std::uint32_t>::m_indices_dists)>
+      found;
   std::vector<std::uint32_t> voxel_points;
   std::vector<std::uint64_t> neighbours;
 };

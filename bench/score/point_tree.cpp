@@ -30,6 +30,7 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
 /// index, so that the answer does not depend on the tree.
 class NearestSet {
  public:
+  using DistanceType = float;
   NearestSet(std::span<Neighbour> found, float below_m)
       : found_(found), worst_m2_(below_m * below_m) {}
 
@@ -51,6 +52,7 @@ class NearestSet {
   }
   float worstDist() const { return worst_m2_; }
   bool full() const { return count_ == found_.size(); }
+  void sort() {}  // they are; nanoflann asks since 1.5
   std::size_t count() const { return count_; }
 
  private:
@@ -80,7 +82,7 @@ std::span<const Neighbour> PointTree::nearest(const Vec3f& p_m, std::span<Neighb
                                               float below_m) const {
   if (found.empty() || impl_->points.points_m.empty()) return found.first(0);
   NearestSet set(found, below_m);
-  impl_->tree.findNeighbors(set, p_m.data(), nanoflann::SearchParams());
+  impl_->tree.findNeighbors(set, p_m.data(), {});
   for (Neighbour& neighbour : found.first(set.count())) {
     neighbour.distance_m = std::sqrt(neighbour.distance_m);
   }

@@ -118,3 +118,16 @@ def test_mkdocs_builds_the_site(tmp_path):
     assert end.returncode == 0, end.stdout + end.stderr
     page = (tmp_path / 'site/reference/python/index.html').read_text()
     assert 'id="gnbv.Belief.evaluate"' in page, 'the package is not documented'
+
+
+def test_doxygen_warns_of_nothing_in_the_public_headers(tmp_path):
+    if not shutil.which('doxygen'):
+        pytest.skip('no doxygen: tools/setup --all')
+    listed = re.findall(r'`gnbv/([\w/]+\.hpp)`', (REPOSITORY / 'docs/reference/cpp.md').read_text())
+    settings = (REPOSITORY / 'docs/Doxyfile').read_text()
+    assert sorted(listed) == sorted(re.findall(r'[\w/]+\.hpp', settings))
+    sys.path.insert(0, str(REPOSITORY / 'docs'))
+    import hooks
+    hooks.write_cpp(tmp_path / 'cpp')
+    page = (tmp_path / 'cpp/classgnbv_1_1Onboard.html').read_text()
+    assert 'load_profile' in page and 'a file of another map' in page

@@ -1,4 +1,5 @@
 """What is made of a run: pictures, surfaces and exports; of damaged, bare and old ones, too."""
+import json
 import re
 import shutil
 
@@ -202,15 +203,17 @@ def test_half_an_iterations_file_is_refused(run, copy, command):
 # ---- what version 0.1 wrote ----
 @pytest.fixture
 def old(tmp_path):
-    """A run of it that was interrupted after five of ten views, one that was finished, scenario
-    files; nothing in there is ever written anew."""
+    """What it wrote, never written anew: a run that was interrupted after five of ten views, runs of a
+    tour and from take-off, scenario files; of its last state and small.yaml a baseline, rows of
+    `compare --missions`, and answers to `--views -`."""
     return shutil.copytree(REPOSITORY / 'tests/program/fixtures/version_0_1', tmp_path,
                            dirs_exist_ok=True)
 
 
-@pytest.mark.parametrize('name', ['interrupted', 'tour'])
+@pytest.mark.parametrize('name', ['interrupted', 'tour', 'takeoff'])
 def test_old_runs_are_scored_as_they_scored_themselves(run, old, name):
     now, then = run(f'score --json {name}').json['coverage'], summary(old / name)['coverage']
+    then.pop('reference', None)  # what its coverage is of
     for of, sizes in then.items():
         for size, share in sizes.items():
             # rays that graze an edge may differ from machine to machine: one voxel of 300 or so
@@ -218,7 +221,7 @@ def test_old_runs_are_scored_as_they_scored_themselves(run, old, name):
 
 
 def test_old_runs_have_a_report(gnbv, old):
-    end = gnbv('report', '--quiet', 'interrupted', 'tour', '-o', 'page.html')
+    end = gnbv('report', '--quiet', 'interrupted', 'tour', 'takeoff', '-o', 'page.html')
     if 'npm' in end.err:
         pytest.skip(end.err)
     assert end.check({0}) and (old / 'page.html').stat().st_size > 100_000
@@ -234,6 +237,52 @@ def test_an_old_interrupted_run_goes_on_to_its_end(run, old):
     # the views that were recorded are still the first
     for row in rows:
         assert '\n' + row.split(',agvs,')[0] in path.read_text()
+
+
+def test_an_old_mission_from_take_off_goes_on_as_it_went(run, old):
+    path = old / 'takeoff/iterations.csv'
+    rows = path.read_text().splitlines(keepends=True)
+    path.write_text(''.join(rows[:5]))  # as a kill after four views leaves it
+    (old / 'takeoff/summary.json').unlink()
+    run('run takeoff/scenario.yaml --resume --quiet --out takeoff')
+    assert path.read_text().startswith(''.join(rows[:2]).rsplit(',', 12)[0])
+    assert summary(old / 'takeoff')['iterations'] == 8
+    run('render takeoff --what all --width 320 --height 240 --quiet')
+    run('export takeoff --format plain')
+
+
+def test_old_rows_and_old_baselines_judge(run, old):
+    run('compare --from rows.csv --no-ceiling --quiet --format csv',
+        'small,coverage at 0.05 m (%),proposed,2,2,17.211', 'bircher,2,2,18.2385')
+    # the configuration that 0.1 noted is what its scenario means today
+    run('run small.yaml --quiet --out now')
+    run('check now --against baseline.json')
+
+
+def test_programs_that_give_views_to_0_1_are_answered_alike(gnbv, old):
+    """New fields may come; none goes, or changes its kind."""
+    def kinds(value):
+        if isinstance(value, dict):
+            return {key: kinds(inner) for key, inner in value.items()}
+        return [kinds(value[0])] if isinstance(value, list) and value else type(value)
+
+    def held(old_kind, new_kind):
+        if isinstance(old_kind, dict):
+            return all(key in new_kind and held(old_kind[key], new_kind[key]) for key in old_kind)
+        if isinstance(old_kind, list):
+            return held(old_kind[0], new_kind[0])
+        return old_kind == new_kind
+
+    (old / 'views.csv').write_text(
+        'x,y,z,yaw_deg\n3.2,0,2,180\n0,3.2,2.5,-90\n9,9,9,0\nnonsense\n')
+    with (old / 'views.csv').open() as file:
+        words = 'run small.yaml --utility route --views - --coverage --quiet --out piped'
+        end = gnbv(*words.split(), stdin=file).check({0})
+    then = (old / 'answers.jsonl').read_text().splitlines()
+    for before, now in zip(then, end.out.splitlines(), strict=True):
+        before, now = json.loads(before), json.loads(now)
+        assert before['event'] == now['event']
+        assert held(kinds(before), kinds(now)), (before, now)
 
 
 def test_old_scenarios_mean_what_they_meant(run, old):

@@ -6,7 +6,7 @@ import pytest
 from program import hash_of, json_of
 
 COMMANDS = ('run table render asset lint schema score sweep ceiling export plot check compare '
-            'report surface fly paper').split()
+            'report surface fly paper doctor').split()
 ONE = '--quiet --set planner.termination.max_iterations=1'
 NAN = 'v 0 0 1\nv nan 0 1\nv 0 1 1\nf 1 2 3\n'
 
@@ -245,3 +245,21 @@ def test_without_threads_the_system_is_blamed(gnbv, copy_of, tmp_path, words):
         pytest.skip('another user cannot run gnbv here')
     gnbv.before += ['prlimit', '--nproc=1']
     gnbv(*words.split()).check({1}, ['Resource temporarily unavailable'])
+
+
+def test_doctor_says_what_is_missing_and_how_to_get_it(run):
+    def rows(**environment):
+        table = run('doctor --json', **environment)
+        return {row['need']: row for row in table.json['rows']}, table.json['notes']
+
+    here, notes = rows()
+    for need in ('symmetry module', 'Poisson module', 'Mesa', 'a font', 'Python: matplotlib',
+                 'Python: matplotlib, jinja2', 'Python: PIL'):  # tools/setup brings them
+        assert (here[need]['is_here'], here[need]['remedy']) == ('yes', '-')
+    bare, notes = rows(PATH='/nowhere', GNBV_PYTHON='/nowhere/python', GNBV_FONT='/nowhere/font')
+    for need, remedy in [('Python: matplotlib', 'apt install python3-matplotlib, or'),
+                         ('ffmpeg', 'apt install ffmpeg'), ('sbatch', 'apt install slurm-client'),
+                         ('a font', 'apt install fonts-dejavu-core')]:
+        assert bare[need]['is_here'] == 'no' and remedy in bare[need]['remedy']
+    assert any('/nowhere/font' in note for note in notes)
+    assert 'ffmpeg' in run('doctor').out

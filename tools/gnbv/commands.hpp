@@ -28,5 +28,6 @@ void add_score_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_surface_command(CLI::App& app);
 void add_cache_command(CLI::App& app);
+void add_doctor_command(CLI::App& app);
 
 }  // namespace gnbv

@@ -19,7 +19,7 @@ struct Example {
   std::string_view command;
   std::string_view lines;
 };
-constexpr std::array<Example, 19> kExamples = {
+constexpr std::array<Example, 20> kExamples = {
     {{"fly", "gnbv fly smoke\ngnbv fly aircraft --mavlink udpout://127.0.0.1:14550 --speed 2"},
      {"run",
       "gnbv run aircraft --seed 1 --out runs/first\n"
@@ -35,6 +35,7 @@ constexpr std::array<Example, 19> kExamples = {
       "gnbv bench table tour.zip other.zip"},
      {"cache", "gnbv cache --prune"},
      {"ceiling", "gnbv ceiling aircraft"},
+     {"doctor", "gnbv doctor"},
      {"render",
       "gnbv render runs/first\n"
       "gnbv render runs/first --what all -o pictures\n"

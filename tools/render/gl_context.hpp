@@ -1,19 +1,16 @@
-// OSMesa and GL, opened at run time, so that programs which draw nothing do not pay for loading
-// them (32 ms) nor need them installed. For render.cpp only.
+// GL, opened at run time, so that programs which draw nothing do not pay for loading Mesa (32 ms)
+// nor need it installed. For renderer.cpp only.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES
-#include <GL/osmesa.h>
+#include <GL/gl.h>
 
-#include <array>
-#include <cstdint>
 #include <initializer_list>
+#include <memory>
 
 namespace gnbv {
 
 // clang-format off
-#define GNBV_OSMESA_FUNCTIONS(X) \
-  X(CreateContextAttribs) X(DestroyContext) X(MakeCurrent) X(GetProcAddress)
 #define GNBV_GL_FUNCTIONS(X)                                                                    \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindBufferBase) X(BindFramebuffer)           \
   X(BindTexture) X(BindVertexArray) X(BlendFunc) X(BufferData) X(CheckFramebufferStatus)        \
@@ -26,28 +23,31 @@ namespace gnbv {
   X(UniformBlockBinding) X(UseProgram) X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
-struct OsMesa {
-#define X(name) decltype(&::OSMesa##name) name = nullptr;
-  GNBV_OSMESA_FUNCTIONS(X)
-#undef X
-};
-
 struct Gl {
 #define X(name) decltype(&::gl##name) name = nullptr;
   GNBV_GL_FUNCTIONS(X)
 #undef X
 };
 
+/// A context without a window, of GL 3.3 core.
+class GlLibrary {
+ public:
+  using Function = void();
+  virtual ~GlLibrary() = default;
+  virtual bool has_context() const = 0;
+  virtual void make_current() = 0;
+  virtual Function* function(const char* name) const = 0;
+};
+
 /// A context that draws into textures only, and the functions of GL 3.3 core.
 class GlContext {
  public:
-  /// Throws BadInput when the OSMesa library is missing or too old, naming the Debian package.
+  /// By OSMesa, or without it (Mesa has none since 25.1) by EGL on the device that draws on the
+  /// CPU: the same code draws. The variable GNBV_GL, "osmesa" or "egl", asks for one. Throws
+  /// BadInput when neither is there or new enough, naming the Debian packages.
   GlContext();
-  ~GlContext();
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
 
-  void make_current();
+  void make_current() { library_->make_current(); }
   /// A program whose shaders begin with kCommon of shaders.hpp and share its block `Frame`. Its
   /// samplers shadow_map, picture, depths, distances, shade and paint are texture units 0 to 5.
   GLuint make_program(std::initializer_list<const char*> vertex,
@@ -56,9 +56,7 @@ class GlContext {
   Gl gl;
 
  private:
-  OsMesa mesa_;
-  OSMesaContext context_ = nullptr;
-  std::array<std::uint8_t, 4 * 4 * 4> window_{};  // OSMesa wants one; all drawing goes elsewhere
+  std::unique_ptr<GlLibrary> library_;
 };
 
 }  // namespace gnbv

@@ -7,10 +7,11 @@
 
 namespace gnbv {
 
-/// Draws scenes off screen with OSMesa, which is loaded here, at run time. Use from one thread.
+/// Draws scenes off screen with Mesa on the CPU, which is loaded here, at run time. Use from one
+/// thread.
 class Renderer {
  public:
-  /// Throws BadInput when the OSMesa library is missing or too old, naming the Debian package.
+  /// Throws BadInput when Mesa is missing or too old, naming the Debian packages.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;

@@ -146,6 +146,24 @@ TEST(Render, SameSceneGivesSameBytes) {
   EXPECT_EQ(render(scene, view).rgb, first.rgb);
 }
 
+TEST(Render, OsMesaAndEglDrawTheSameBytes) {
+  for (const char* library : {"libOSMesa.so.8", "libEGL_mesa.so.0"}) {
+    if (::dlopen(library, RTLD_LAZY) == nullptr) GTEST_SKIP() << "without " << library;
+  }
+  RenderScene scene;
+  scene.surfaces = {quad(-1.0, 0.8, kRed), quad(1.0, 1.8, kBlue)};
+  scene.balls.push_back({{-2.0F, 0.0F, 0.0F}, 0.3F, kBlue, false});
+  const RenderView view = view_from({-9.0, 3.0, 2.0}, {0.0, 0.4, 0.3}, 160, 100);
+  std::vector<Image> images;
+  for (const char* name : {"osmesa", "egl"}) {
+    ::setenv("GNBV_GL", name, 1);
+    images.push_back(render(scene, view));
+  }
+  ::unsetenv("GNBV_GL");
+  EXPECT_EQ(images[0].rgb, images[1].rgb);
+  EXPECT_NE(images[0].rgb, std::vector<std::uint8_t>(images[0].rgb.size(), images[0].rgb[0]));
+}
+
 TEST(Render, ShadowFallsOppositeToTheLight) {
   RenderScene scene;
   SurfaceItem roof;  // level square, 3 m above the ground
