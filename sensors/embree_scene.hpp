@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "sensors/exact_faces.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
@@ -32,6 +34,8 @@ struct EmbreeScene {
   TriangleMesh meshes;  // of structure, obstacles and terrain, one after the other
   std::array<std::uint32_t, 4> first_face{};  // of each of them in `meshes`, and the end
   float terrain_floor_z_m;
+  // of a portable world, by id; else none
+  std::array<std::vector<FaceCorners>, 4> exact_faces;
 
   /// Throws std::bad_alloc for want of memory, BrokenInvariant for an Embree that cannot be used
   /// and for faces and materials that point nowhere.

@@ -118,7 +118,10 @@ void move_back(const Vec3& by_m, RTCRay16& rays) {
 RayScene::RayScene(const World& world) : embree_(std::make_shared<const EmbreeScene>(world)) {
   auto first_face = static_cast<std::uint32_t>(embree_->meshes.faces.size());
   for (const MovingBody& mover : world.movers) {
-    const World alone{.structure = {}, .has_ground = false, .obstacles = mover.mesh};
+    const World alone{.structure = {},
+                      .has_ground = false,
+                      .obstacles = mover.mesh,
+                      .is_portable = world.is_portable};
     movers_.push_back(
         {std::make_shared<const EmbreeScene>(alone), mover.motion, Vec3::Zero(), first_face});
     first_face += static_cast<std::uint32_t>(mover.mesh.faces.size());
