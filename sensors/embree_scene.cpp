@@ -82,11 +82,10 @@ void set_triangles(RTCDevice device, RTCGeometry geometry, std::span<const Vec3f
   for (const auto& face : faces) index = std::copy_n(face.data(), 3, index);
 }
 
-void attach(EmbreeScene& to, unsigned id, bool is_portable, std::span<const Vec3f> vertices_m,
-            Faces faces) {
+void attach(EmbreeScene& to, unsigned id, std::span<const Vec3f> vertices_m, Faces faces) {
   const std::unique_ptr<RTCGeometryTy, Releases<rtcReleaseGeometry>> geometry(rtcNewGeometry(
-      to.device.get(), is_portable ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_TRIANGLE));
-  if (is_portable) {
+      to.device.get(), to.is_portable ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_TRIANGLE));
+  if (to.is_portable) {
     std::vector<FaceCorners>& exact = to.exact_faces[id];
     for (const auto& [a, b, c] : faces) {
       exact.push_back({vertices_m[a], vertices_m[b], vertices_m[c]});
@@ -150,7 +149,8 @@ std::string device_config() {
 EmbreeScene::EmbreeScene(const World& world)
     : device(rtcNewDevice(device_config().c_str())),
       meshes(world.structure),
-      terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)) {
+      terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)),
+      is_portable(world.is_portable) {
   check_device(device.get(), "opening a device");
   GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
              "this Embree was built without ray masks");
@@ -162,7 +162,7 @@ EmbreeScene::EmbreeScene(const World& world)
     need_indices(*part);
     if (id != structure && !part->faces.empty()) append(meshes, *part);
     if (!part->faces.empty()) {
-      attach(*this, id, world.is_portable, part->vertices_m, part->faces);
+      attach(*this, id, part->vertices_m, part->faces);
     }
     first_face[++id] = static_cast<std::uint32_t>(meshes.faces.size());
   }
@@ -171,7 +171,7 @@ EmbreeScene::EmbreeScene(const World& world)
     const std::array<Vec3f, 4> corners = {Vec3f(-w, -w, 0), Vec3f(w, -w, 0), Vec3f(w, w, 0),
                                           Vec3f(-w, w, 0)};
     const std::array<std::array<std::uint32_t, 3>, 2> halves = {{{0, 1, 2}, {0, 2, 3}}};
-    attach(*this, ground, world.is_portable, corners, halves);
+    attach(*this, ground, corners, halves);
   }
   rtcCommitScene(scene.get());
   check_device(device.get(), "building the scene");

@@ -34,6 +34,7 @@ struct EmbreeScene {
   TriangleMesh meshes;  // of structure, obstacles and terrain, one after the other
   std::array<std::uint32_t, 4> first_face{};  // of each of them in `meshes`, and the end
   float terrain_floor_z_m;
+  bool is_portable;
   // of a portable world, by id; else none
   std::array<std::vector<FaceCorners>, 4> exact_faces;
 

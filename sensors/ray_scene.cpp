@@ -14,10 +14,13 @@ constexpr std::size_t kPacket = RayPacket::kRays;
 
 using Lanes = std::array<int, kPacket>;  // -1 for those that Embree traces
 
-RTCIntersectContext coherent_context() {
+/// Rays are neighbours, which Embree may heed. In a portable world it may not: a component of a
+/// direction between -1e-18 and 0 then hides faces from the other rays of a packet.
+RTCIntersectContext context_for(const EmbreeScene& world) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = world.is_portable ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+                                    : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
 
@@ -48,7 +51,7 @@ template <typename Also, typename Store>
 void trace_packets(const EmbreeScene& world, const Also& also, const Vec3f& origin_world_m,
                    std::span<const RayPacket> directions_world, float near_m, float far_m,
                    const Store& store) {
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(world);
   RTCRayHit16 packet{};  // Embree writes only tfar and the hit
   std::fill_n(packet.ray.org_x, kPacket, origin_world_m.x());
   std::fill_n(packet.ray.org_y, kPacket, origin_world_m.y());
@@ -141,7 +144,7 @@ void RayScene::trace_movers(std::span<const int, kPacket> valid, float far_m,
   if (!has_time_) return;
   Lanes lanes;
   std::ranges::copy(valid, lanes.begin());
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(*embree_);
   for (const Mover& mover : movers_) {
     RTCRayHit16 other = packet;
     move_back(mover.offset_m, other.ray);
@@ -162,7 +165,7 @@ void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRa
   if (!has_time_) return;
   Lanes lanes;
   std::ranges::copy(valid, lanes.begin());
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(*embree_);
   for (const Mover& mover : movers_) {
     RTCRay16 other = packet;
     move_back(mover.offset_m, other);
@@ -218,7 +221,7 @@ void RayScene::first_hits(std::span<const Vec3f> origins_world_m,
                           std::span<const Vec3f> directions_world, float near_m, float far_m,
                           std::span<RayHit> hits) const {
   need_answers(hits.size(), directions_world.size());
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(*embree_);
   RTCRayHit16 packet{};
   for_each_ray(
       origins_world_m, directions_world, near_m, kAllParts, packet.ray,
@@ -235,7 +238,7 @@ void RayScene::find_blocked(unsigned parts, std::span<const Vec3f> origins_world
                             std::span<const Vec3f> directions_world, float near_m, float far_m,
                             std::span<std::uint8_t> blocked) const {
   need_answers(blocked.size(), directions_world.size());
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(*embree_);
   RTCRay16 packet{};
   for_each_ray(
       origins_world_m, directions_world, near_m, parts, packet,

@@ -174,13 +174,17 @@ TEST_P(RaySceneOfEither, DistanceToStructureEqualsBruteForceAndIgnoresTheGround)
   EXPECT_TRUE(std::isinf(RayScene(world_of({}, false)).distance_to_structure_m({0, 0, 1}, 1.0)));
 }
 
-/// To everything a ray can meet at once: corners, edges, faces that lie in one another.
+/// Along edges and through their middles, at faces that lie in one another, along axes but for
+/// 1e-18.
 std::vector<RayHit> awkward_hits(const RayScene& scene, const TriangleMesh& mesh) {
   std::vector<Vec3f> directions = random_directions(2000, 5);
-  for (const auto& [a, b, c] : mesh.faces) {
+  for (std::size_t face = 0; face < mesh.faces.size(); face += 11) {
+    const auto& [a, b, c] = mesh.faces[face];
     const Vec3f &p = mesh.vertices_m[a], &q = mesh.vertices_m[b], &r = mesh.vertices_m[c];
-    directions.insert(directions.end(), {p, p + q, q - r, p + q + r});
+    directions.insert(directions.end(), {p + q, q - r, p + q + r});
   }
+  // of the poles' slivers
+  std::erase_if(directions, [](const Vec3f& direction) { return direction.norm() < 1e-3F; });
   std::vector<RayHit> hits(directions.size());
   scene.first_hits({0, 0, 0}, directions, 0.0F, kEndless, hits);
   const std::vector<Vec3f> origins = random_directions(directions.size(), 6);
