@@ -133,6 +133,8 @@ void fields(const Keys& key, Scenario& c) {
   key.section("planner", c.planner, "What is believed and decided.");
   papers.section("benchmark", c.benchmark,
                  "What is decided on the true surface, which no real mission knows.");
+  key("portable", c.portable,
+      "The mission has the same digits on every x86-64 processor, for which sensing takes longer.");
 }
 
 }  // namespace gnbv

@@ -135,6 +135,7 @@ struct Scenario {
   StartConfig start;
   PlannerConfig planner;
   BenchmarkConfig benchmark;
+  bool portable = false;
 };
 
 inline bool has_flat_ground(const Scenario& scenario) {

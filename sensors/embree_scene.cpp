@@ -1,9 +1,11 @@
 #include "sensors/embree_scene.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <new>
 #include <span>
+#include <string>
 
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
@@ -64,20 +66,34 @@ void check_device(RTCDevice device, const char* doing) {
              static_cast<int>(error), doing);
 }
 
-/// Copies the triangles into a new geometry. Embree pads its own buffers.
-void attach(const EmbreeScene& to, unsigned id, std::span<const Vec3f> vertices_m,
-            std::span<const std::array<std::uint32_t, 3>> faces) {
-  const std::unique_ptr<RTCGeometryTy, Releases<rtcReleaseGeometry>> geometry(
-      rtcNewGeometry(to.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
-                                                             0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), vertices_m.size()));
+using Faces = std::span<const std::array<std::uint32_t, 3>>;
+
+/// Copies the triangles into the geometry. Embree pads its own buffers.
+void set_triangles(RTCDevice device, RTCGeometry geometry, std::span<const Vec3f> vertices_m,
+                   Faces faces) {
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                             RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                             vertices_m.size()));
   auto* index = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), faces.size()));
-  check_device(to.device.get(), "allocating geometry");
+  check_device(device, "allocating geometry");
   for (const Vec3f& v : vertices_m) vertex = std::copy_n(v.data(), 3, vertex);
   for (const auto& face : faces) index = std::copy_n(face.data(), 3, index);
+}
+
+void attach(EmbreeScene& to, unsigned id, std::span<const Vec3f> vertices_m, Faces faces) {
+  const std::unique_ptr<RTCGeometryTy, Releases<rtcReleaseGeometry>> geometry(rtcNewGeometry(
+      to.device.get(), to.is_portable ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_TRIANGLE));
+  if (to.is_portable) {
+    std::vector<FaceCorners>& exact = to.exact_faces[id];
+    for (const auto& [a, b, c] : faces) {
+      exact.push_back({vertices_m[a], vertices_m[b], vertices_m[c]});
+    }
+    set_exact_faces(geometry.get(), exact);
+  } else {
+    set_triangles(to.device.get(), geometry.get(), vertices_m, faces);
+  }
   rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_HIGH);
   rtcSetGeometryMask(geometry.get(), 1U << id);
   rtcCommitGeometry(geometry.get());
@@ -122,12 +138,19 @@ bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
+/// GNBV_EMBREE adds to it, for tests: isa=avx2, say.
+std::string device_config() {
+  const char* const more = std::getenv("GNBV_EMBREE");
+  return std::string("threads=1") + (more == nullptr ? "" : std::string(",") + more);
+}
+
 }  // namespace
 
 EmbreeScene::EmbreeScene(const World& world)
-    : device(rtcNewDevice("threads=1")),
+    : device(rtcNewDevice(device_config().c_str())),
       meshes(world.structure),
-      terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)) {
+      terrain_floor_z_m(static_cast<float>(world.terrain_floor_z_m)),
+      is_portable(world.is_portable) {
   check_device(device.get(), "opening a device");
   GNBV_CHECK(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0,
              "this Embree was built without ray masks");
@@ -138,7 +161,9 @@ EmbreeScene::EmbreeScene(const World& world)
   for (const TriangleMesh* part : {&world.structure, &world.obstacles, &world.terrain}) {
     need_indices(*part);
     if (id != structure && !part->faces.empty()) append(meshes, *part);
-    if (!part->faces.empty()) attach(*this, id, part->vertices_m, part->faces);
+    if (!part->faces.empty()) {
+      attach(*this, id, part->vertices_m, part->faces);
+    }
     first_face[++id] = static_cast<std::uint32_t>(meshes.faces.size());
   }
   if (world.has_ground) {

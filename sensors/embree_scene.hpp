@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "sensors/embree.hpp"
+#include "sensors/exact_faces.hpp"
 #include "sim/mesh/world.hpp"
 
 namespace gnbv {
@@ -31,6 +33,9 @@ struct EmbreeScene {
   TriangleMesh meshes;  // of structure, obstacles and terrain, one after the other
   std::array<std::uint32_t, 4> first_face{};  // of each of them in `meshes`, and the end
   float terrain_floor_z_m;
+  bool is_portable;
+  // of a portable world, by id; else none
+  std::array<std::vector<FaceCorners>, 4> exact_faces;
 
   /// Throws std::bad_alloc for want of memory, BrokenInvariant for an Embree that cannot be used
   /// and for faces and materials that point nowhere.

@@ -17,7 +17,7 @@ using Lanes = std::array<int, kPacket>;  // -1 for those that Embree traces
 void trace(const EmbreeScene& world, const Lanes& valid, float far_m, RTCRayHit16& packet) {
   std::fill_n(packet.ray.tfar, kPacket, far_m);
   std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-  intersect16(valid.data(), world.scene.get(), packet);
+  intersect16(valid.data(), world.scene.get(), packet, !world.is_portable);
 }
 
 // These two read everything first and then choose, so that the compiler can do 16 lanes at once.
@@ -109,7 +109,10 @@ void move_back(const Vec3& by_m, RTCRay16& rays) {
 RayScene::RayScene(const World& world) : embree_(std::make_shared<const EmbreeScene>(world)) {
   auto first_face = static_cast<std::uint32_t>(embree_->meshes.faces.size());
   for (const MovingBody& mover : world.movers) {
-    const World alone{.structure = {}, .has_ground = false, .obstacles = mover.mesh};
+    const World alone{.structure = {},
+                      .has_ground = false,
+                      .obstacles = mover.mesh,
+                      .is_portable = world.is_portable};
     movers_.push_back(
         {std::make_shared<const EmbreeScene>(alone), mover.motion, Vec3::Zero(), first_face});
     first_face += static_cast<std::uint32_t>(mover.mesh.faces.size());
@@ -152,7 +155,7 @@ void RayScene::find_blocked_by_movers(std::span<const int, kPacket> valid, RTCRa
   for (const Mover& mover : movers_) {
     RTCRay16 other = packet;
     move_back(mover.offset_m, other);
-    occluded16(lanes.data(), mover.body->scene.get(), other);
+    occluded16(lanes.data(), mover.body->scene.get(), other, !mover.body->is_portable);
     std::ranges::copy(other.tfar, std::begin(packet.tfar));
   }
 }
@@ -225,7 +228,7 @@ void RayScene::find_blocked(unsigned parts, std::span<const Vec3f> origins_world
       origins_world_m, directions_world, near_m, parts, packet,
       [&](const Lanes& valid) {
         std::fill_n(packet.tfar, kPacket, far_m);
-        occluded16(valid.data(), embree_->scene.get(), packet);
+        occluded16(valid.data(), embree_->scene.get(), packet, !embree_->is_portable);
         if ((parts & kObstaclePart) != 0) find_blocked_by_movers(valid, packet);
       },
       [&](std::size_t i, std::size_t lane) {

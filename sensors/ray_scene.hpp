@@ -1,4 +1,4 @@
-// The world as the sensors see it. Embree is known to ray_scene.cpp and embree_scene.* alone.
+// The world as sensors see it. Only ray_scene.cpp, embree_scene.* and exact_faces.* know Embree.
 #pragma once
 
 #include <array>

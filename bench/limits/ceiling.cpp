@@ -146,6 +146,7 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
   out.planner.profiling = planner.profiling;
   out.planner.validity.collision_radius_m = planner.validity.collision_radius_m;
   out.planner.validity.z_min_m = planner.validity.z_min_m;
+  out.portable = scenario.portable;
   return out;
 }
 

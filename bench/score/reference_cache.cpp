@@ -20,6 +20,7 @@ std::string key_of(const World& world, const ReferenceConfig& config) {
        {config.floor_z_m, config.sample_spacing_m, config.escape_near_m, config.obstacle_reach_m}) {
     sha.add(value);
   }
+  sha.add(std::uint64_t{world.is_portable});
   sha.add(config.directions);
   sha.add(std::uint64_t{config.fewest_samples});
   sha.add(std::uint64_t{config.area_samples});

@@ -25,6 +25,7 @@ struct World {
   // what rises above is in its way as an obstacle is (planner.floor_z_m).
   double terrain_floor_z_m = 0.0;
   std::vector<MovingBody> movers = {};
+  bool is_portable = false;  // rays meet the same face at the same place on every processor
 };
 
 }  // namespace gnbv

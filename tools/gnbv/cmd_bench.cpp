@@ -10,6 +10,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
+#include "tools/figures/figure_files.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/suite/suite_work.hpp"
@@ -32,6 +33,7 @@ struct BenchSuiteOptions {
   EntryWords words;
   std::vector<fs::path> files;
   std::string format = "terminal";
+  fs::path plot;
   std::vector<std::string> planners = {"oracle_metres", "tour", "proposed"};
 };
 
@@ -134,6 +136,9 @@ void print_standings(const BenchSuiteOptions& options) {
                formatted_text(table, options.format, stdout_columns()));
     is_first = false;
   }
+  if (options.plot.empty()) return;
+  const Figure figure = standings_figure(suite_of(options), entries);
+  draw_to_files({{{&figure, options.plot}}});
 }
 
 void write_page_of(const BenchSuiteOptions& options) {
@@ -206,6 +211,7 @@ void add_standings_parts(CLI::App& bench, const Options& o) {
   table.add_option("--format", o->format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();
+  table.add_option("--plot", o->plot, "also draw them: a file .svg, .png or .pdf");
   add_suite_option(table, o);
   CLI::App& page =
       *add_part(bench, o, "page", "a static site of the standings; every mission is flown again",

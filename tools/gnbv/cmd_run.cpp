@@ -182,6 +182,9 @@ void add_run_command(CLI::App& app) {
   command->add_flag("--coverage", mission.coverage,
                     "with --views -: answers tell the true coverage");
   add_preset_option(*command, options->scenario);
+  command->add_flag_callback(
+      "--portable", [options] { options->scenario.overrides.emplace_back("portable=true"); },
+      "the same digits on every x86-64 processor; sensing takes longer");
   command->add_option("--out", mission.out, "run directory (default: a new one under runs/)");
   add_threads_option(*command, mission.threads);
   add_quiet_option(*command, mission.quiet);

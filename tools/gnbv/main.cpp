@@ -14,6 +14,7 @@
 #include "bench/score/content_cache.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/portable.hpp"
 #include "sim/core/simd.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/help.hpp"
@@ -120,6 +121,8 @@ int main(int argc, char** argv) {
   try {
     exit_code = run(argc, argv);
   } catch (const gnbv::BadInput& error) {
+    const bool may_help = dynamic_cast<const gnbv::UnportableMathematics*>(&error) != nullptr;
+    if (may_help) gnbv::restart_with_portable_mathematics(argv);
     gnbv::say(error.what());
     exit_code = 2;
   } catch (const gnbv::CommandFailed& failed) {

@@ -2,6 +2,7 @@
 
 #include "assets/catalog.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/portable.hpp"
 
 namespace gnbv {
 
@@ -45,6 +46,8 @@ TriangleMesh load_structure(const Scenario& scenario, std::vector<std::string>& 
 }
 
 void load_surroundings(const Scenario& scenario, World& world, std::vector<std::string>& warnings) {
+  if (scenario.portable) need_portable_mathematics();
+  world.is_portable = scenario.portable;
   world.has_ground = has_flat_ground(scenario);
   load_obstacles(scenario, world, warnings);
   if (!scenario.terrain.path.empty()) world.terrain = load_mesh(scenario.terrain, &warnings);

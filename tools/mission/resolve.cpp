@@ -6,6 +6,7 @@
 
 #include "scenarios/document.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/portable.hpp"
 #include "sim/mesh/model_parts.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/run/user_views.hpp"
@@ -56,7 +57,9 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
                                      .yaw = is_given("start.yaw_deg")});
     };
   }
-  return load_with_overrides(options.scenario, all, bounds, unused_notes);
+  const Scenario scenario = load_with_overrides(options.scenario, all, bounds, unused_notes);
+  if (scenario.portable) need_portable_mathematics();  // before anything is begun
+  return scenario;
 }
 
 }  // namespace gnbv

@@ -1,21 +1,27 @@
 // speed_table: the planner's hot paths and a whole mission against their references, in one run on
 // one machine. tools/bench builds and runs it.
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <thread>
 
 #include "bench/speed/speed_rows.hpp"
 #include "scenarios/load.hpp"
+#include "sim/core/child_process.hpp"
+#include "sim/core/error.hpp"
 #include "sim/core/simd.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/mission.hpp"
+#include "tools/run/file_names.hpp"
+#include "tools/run/iterations_csv.hpp"
 
 namespace gnbv {
 namespace {
@@ -109,8 +115,45 @@ std::vector<SpeedRow> mission_speed() {
            .is_limit = true}};
 }
 
+/// Of each answer of the view exchange: wall time from a view's line to the answer's end, less what
+/// flying, sensing and the map took of it. The median.
+SpeedRow exchange_speed() {
+  constexpr int kAsked = 40;
+  constexpr double kLimit_ms = 1.0;
+  std::string folder = (std::filesystem::temp_directory_path() / "gnbv-speed-XXXXXX").string();
+  GNBV_CHECK(mkdtemp(folder.data()) != nullptr, "no folder {}", folder);
+  ChildProcess gnbv({GNBV_PROGRAM, "run", "smoke", "--utility", "route", "--views", "-", "--out",
+                     folder + "/run", "--quiet"},
+                    {.in = ChildStream::pipe, .out = ChildStream::pipe});
+  gnbv.read_line();  // where the first view was taken
+  gnbv.write("x,y,z,yaw_deg\n");
+  std::vector<double> answered_ms;
+  int taken = 0;
+  for (int i = 0; i < kAsked; ++i) {
+    const double bearing_rad = 2.0 * kPi * i / kAsked;
+    const Stopwatch watch;
+    gnbv.write(fmt::format("{},{},1.8,{}\n", 3.2 * std::cos(bearing_rad),
+                           3.2 * std::sin(bearing_rad), rad_to_deg(bearing_rad) - 180.0));
+    taken += gnbv.read_line().find("\"event\":\"flown\"") != std::string::npos ? 1 : 0;
+    answered_ms.push_back(1e3 * watch.elapsed_s());
+  }
+  const bool is_well = gnbv.end().is_success() && taken == kAsked;
+  const auto views = read_view_records(std::filesystem::path(folder) / "run" / kIterationsFile);
+  for (std::size_t i = 0; is_well && i < answered_ms.size(); ++i) {
+    const auto& wall = views.at(i + 1).wall;
+    answered_ms[i] -= 1e3 * (wall.fly_s + wall.sense_s + wall.map_s);
+  }
+  std::filesystem::remove_all(folder);
+  return {.name = "exchange_answer_beside_work",
+          .ours = median(answered_ms),
+          .reference = kLimit_ms,
+          .unit = "ms",
+          .identical = is_well,
+          .target = 1.0};
+}
+
 std::vector<SpeedRow> all_rows() {
-  std::vector<SpeedRow> rows;
+  std::vector<SpeedRow> rows = {exchange_speed()};
   for (const auto& part : {map_speed(), view_speed(), cloud_speed(), mission_speed()}) {
     rows.insert(rows.end(), part.begin(), part.end());
   }

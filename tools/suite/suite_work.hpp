@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/figures/figure.hpp"
 #include "tools/suite/entry.hpp"
 
 namespace gnbv {
@@ -44,6 +45,10 @@ std::vector<std::string> verify_submission(const Submission& submission, const S
 void freeze_track(const std::filesystem::path& suite_file, const std::string& track,
                   const std::vector<std::string>& planners, const std::filesystem::path& folder,
                   const SuiteFlights& flights);
+
+/// A panel a track that has entries: their scores with intervals, the best above. Throws as
+/// standings() does.
+Figure standings_figure(const Suite& suite, const std::vector<Submission>& entries);
 
 /// Writes FOLDER/index.html with the standings, and FOLDER/missions/... with a page of each
 /// mission, flown again from the submissions. Throws CommandFailed when one is not what it says.

@@ -1,0 +1,22 @@
+// Mathematics whose digits do not depend on the processor.
+#pragma once
+
+#include "sim/core/error.hpp"
+
+namespace gnbv {
+
+/// The C library computes other digits on this processor than on some others.
+class UnportableMathematics : public BadInput {
+ public:
+  using BadInput::BadInput;
+};
+
+/// Throws UnportableMathematics unless sines, exponentials and their like have the digits that they
+/// have without fused multiply-adds, as every x86-64 processor computes them.
+void need_portable_mathematics();
+
+/// Starts this program again, told not to fuse, with the words it was started with. Returns where
+/// it was told so already, or cannot be started.
+void restart_with_portable_mathematics(char** argv);
+
+}  // namespace gnbv
