@@ -64,6 +64,9 @@ std::string to_yaml(const Scenario& scenario);
 /// file. "path=text" is an override that load_scenario takes.
 std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario& scenario);
 
+/// What its values are compared with: the defaults of every key, for as many sensors as it has.
+Scenario usual_beside(const Scenario& scenario);
+
 /// Whether the scenario has the values of the built-in scenario of its name, which are the paper's,
 /// wherever fields_*.cpp say that they belong to the paper's setting; only then may a mission's
 /// figures stand beside the paper's. The structure is not asked, since it may be a file, nor are

@@ -124,6 +124,13 @@ std::vector<std::pair<std::string, std::string>> scenario_values(const Scenario&
   return values;
 }
 
+Scenario usual_beside(const Scenario& scenario) {
+  Scenario usual;
+  usual.cameras.resize(scenario.cameras.size());
+  usual.lidars.resize(scenario.lidars.size());
+  return usual;
+}
+
 bool has_papers_setting(const Scenario& scenario) {
   return std::ranges::count(builtin_names("scenarios"), scenario.name) == 1 &&
          papers_values(scenario) == papers_values(load_scenario(scenario.name, {}));

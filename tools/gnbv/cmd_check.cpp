@@ -53,10 +53,7 @@ BaselineSubject subject_of(const fs::path& run) {
     return BaselineSubject::Values(values.begin(), values.end());
   };
   const Scenario flown = load_flown_scenario((run / kScenarioFile).string());
-  Scenario usual;  // with as many sensors, so that a new key of theirs has its default, too
-  usual.cameras.resize(flown.cameras.size());
-  usual.lidars.resize(flown.lidars.size());
-  BaselineSubject of{.configuration = values_of(flown), .defaults = values_of(usual)};
+  BaselineSubject of{.configuration = values_of(flown), .defaults = values_of(usual_beside(flown))};
   for (const RunInput& input : read_inputs(run)) of.files[input.key] = {input.name, input.sha256};
   return of;
 }

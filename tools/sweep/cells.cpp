@@ -1,4 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -86,9 +90,14 @@ std::string CellNamer::id_of(const Scenario& scenario) {
   named.planner.utility.python.file.clear();
   std::string& profile = named.planner.profiling.file;
   profile = content_path(profile, false);
+  const auto values = scenario_values(usual_beside(named));
+  const std::set<std::pair<std::string, std::string>> defaults(values.begin(), values.end());
   Sha256 hash;
-  hash.add("gnbv cell 2\n" + version_ + "\n" + source_ + "\n");
-  hash.add(to_yaml(named));
+  hash.add(fmt::format("gnbv cell 3\n{}\n{}\n{} cameras, {} lidars\n", version_, source_,
+                       named.cameras.size(), named.lidars.size()));
+  for (const auto& value : scenario_values(named)) {
+    if (!defaults.contains(value)) hash.add(fmt::format("{}={}\n", value.first, value.second));
+  }
   return hash.hex().substr(0, 16);
 }
 

@@ -50,8 +50,9 @@ class CellNamer {
       : version_(std::move(version)), source_(std::move(source)) {}
 
   /// 16 hexadecimal digits of the SHA-256 of the program (its version and flying_source_id()) and
-  /// the resolved scenario, in which files (a mesh, a saved profile) are named by the SHA-256 of
-  /// their content, wherever they lie, and that of the files a mesh refers to (libraries, buffers,
+  /// the values of the resolved scenario that are no defaults, so that a later version's keys leave
+  /// it as it is. In them files (a mesh, a saved profile) are named by the SHA-256 of their
+  /// content, wherever they lie, and that of the files a mesh refers to (libraries, buffers,
   /// pictures), and a function of the user's own by its text alone. Two builds of the same sources
   /// share their cells, any change of what flies a mission does not. Throws BadInput naming a file
   /// that cannot be read.

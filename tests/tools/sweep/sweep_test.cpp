@@ -189,6 +189,17 @@ TEST_F(SweepFile, TheIdIsThatOfTheContent) {
   // another build of the same sources shares its cells
   EXPECT_EQ(CellNamer(GNBV_VERSION, flying_source_id()).id_of(cells[0].resolved), cells[0].id);
   EXPECT_NE(CellNamer(GNBV_VERSION, "changed").id_of(cells[0].resolved), cells[0].id);
+  Scenario blind = cells[0].resolved;
+  blind.cameras.clear();
+  EXPECT_NE(CellNamer().id_of(blind), cells[0].id);
+}
+
+TEST_F(SweepFile, AKeyThatALaterVersionAddsLeavesTheIdAsItWas) {
+  Scenario scenario;  // of the version that wrote this test
+  scenario.seed = 7;
+  scenario.cameras = {{.name = "front", .width_px = 320}};
+  scenario.lidars = {{.range_max_m = 25.0}};
+  EXPECT_EQ(CellNamer("", "").id_of(scenario), "0598e4098ce5d708");
 }
 
 TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
