@@ -213,8 +213,9 @@ def old(tmp_path):
 @pytest.mark.parametrize('name', ['interrupted', 'tour', 'takeoff'])
 def test_old_runs_are_scored_as_they_scored_themselves(run, old, name):
     now, then = run(f'score --json {name}').json['coverage'], summary(old / name)['coverage']
-    then.pop('reference', None)  # what its coverage is of
     for of, sizes in then.items():
+        if not isinstance(sizes, dict):
+            continue  # says what the shares are of
         for size, share in sizes.items():
             # rays that graze an edge may differ from machine to machine: one voxel of 300 or so
             assert now[of][size] == pytest.approx(share, abs=0.004)
