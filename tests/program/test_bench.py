@@ -103,6 +103,10 @@ def test_a_submission_is_what_it_says(bench, tmp_path):
     table = bench("table n.zip --suite tiny.yaml --format csv").out.splitlines()
     told = told_by(members_of(tmp_path / "n.zip"))
     assert str(told["figures"]["score"]) in table[1]
+    bench("table n.zip --suite tiny.yaml --plot drawn.svg")
+    drawn = (tmp_path / "drawn.svg").read_text()
+    assert all(word in drawn for word in ("nearest_frontier", "track tiny", "best known"))
+    bench("table n.zip --suite tiny.yaml --plot drawn.gif", "must end in .svg", code=2)
     shares = [mission["share"] for mission in told["missions"]]
     assert told["figures"]["score"] == pytest.approx(sum(shares) / 2)
     # the reseal of these tests is the program's own

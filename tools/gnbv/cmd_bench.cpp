@@ -211,7 +211,14 @@ void add_standings_parts(CLI::App& bench, const Options& o) {
   table.add_option("--format", o->format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();
-  table.add_option("--plot", o->plot, "also draw them: a file .svg, .png or .pdf");
+  table.add_option("--plot", o->plot, "also draw them: a file .svg, .png or .pdf")
+      ->check(CLI::Validator(
+          [](const std::string& file) -> std::string {
+            const std::string kind = fs::path(file).extension().string();
+            if (kind == ".svg" || kind == ".png" || kind == ".pdf") return "";
+            return fmt::format("'{}' must end in .svg, .png or .pdf", file);
+          },
+          ""));
   add_suite_option(table, o);
   CLI::App& page =
       *add_part(bench, o, "page", "a static site of the standings; every mission is flown again",
