@@ -113,6 +113,13 @@ def test_a_submission_is_what_it_says(bench, tmp_path):
     assert sealed(dict(told)).encode() == members_of(tmp_path / "n.zip")["submission.json"]
 
 
+@pytest.mark.parametrize("entry, task", [("random", "smoke")])  # one of each frozen track
+def test_a_committed_entry_is_flown_again(bench, entry, task):
+    file = REPOSITORY / f"suite/entries/{entry}.zip"
+    bench(f"verify {file} --task {task} --quiet", "verified: 1 mission flown again")
+    bench(f"verify {file} --task nowhere", "no such task", code=2)
+
+
 def edited(value):
     if isinstance(value, bool) or value is None:
         return 0.5
