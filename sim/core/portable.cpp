@@ -1,5 +1,6 @@
 #include "sim/core/portable.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,14 +1,15 @@
 // Mathematics whose digits do not depend on the processor.
 #pragma once
 
-#include "sim/core/error.hpp"
+#include <stdexcept>
 
 namespace gnbv {
 
-/// The C library computes other digits on this processor than on some others.
-class UnportableMathematics : public BadInput {
+/// The C library computes other digits on this processor than on some others. No BadInput, which
+/// many catch to say more: this one is for main().
+class UnportableMathematics : public std::runtime_error {
  public:
-  using BadInput::BadInput;
+  using std::runtime_error::runtime_error;
 };
 
 /// Throws UnportableMathematics unless sines, exponentials and their like have the digits that they

@@ -103,10 +103,21 @@ def test_a_submission_is_what_it_says(bench, tmp_path):
     table = bench("table n.zip --suite tiny.yaml --format csv").out.splitlines()
     told = told_by(members_of(tmp_path / "n.zip"))
     assert str(told["figures"]["score"]) in table[1]
+    bench("table n.zip --suite tiny.yaml --plot drawn.svg")
+    drawn = (tmp_path / "drawn.svg").read_text()
+    assert all(word in drawn for word in ("nearest_frontier", "track tiny", "best known"))
+    bench("table n.zip --suite tiny.yaml --plot drawn.gif", "must end in .svg", code=2)
     shares = [mission["share"] for mission in told["missions"]]
     assert told["figures"]["score"] == pytest.approx(sum(shares) / 2)
     # the reseal of these tests is the program's own
     assert sealed(dict(told)).encode() == members_of(tmp_path / "n.zip")["submission.json"]
+
+
+@pytest.mark.parametrize("entry, task", [("random", "smoke")])  # one of each frozen track
+def test_a_committed_entry_is_flown_again(bench, entry, task):
+    file = REPOSITORY / f"suite/entries/{entry}.zip"
+    bench(f"verify {file} --task {task} --quiet", "verified: 1 mission flown again")
+    bench(f"verify {file} --task nowhere", "no such task", code=2)
 
 
 def edited(value):

@@ -115,7 +115,9 @@ void verify_entry(const BenchSuiteOptions& options) {
   const Submission entry = read_submission(options.files.front());
   const ScratchFolder scratch;
   const fs::path folder = options.out.empty() ? scratch.path() : options.out;
-  const auto differences = verify_submission(entry, suite_of(options), folder, options.flights);
+  SuiteFlights flights = options.flights;
+  flights.only = options.only;
+  const auto differences = verify_submission(entry, suite_of(options), folder, flights);
   const std::string file = entry.file.string();
   for (const std::string& difference : differences) fmt::print("{}: {}\n", file, difference);
   if (!differences.empty()) {
@@ -125,7 +127,8 @@ void verify_entry(const BenchSuiteOptions& options) {
   fmt::print(
       "{}: {}, track {}: verified: {} flown again, every number but the planning time is "
       "as it says\n",
-      file, printable(entry.name), entry.track, counted(entry.missions.size(), "mission"));
+      file, printable(entry.name), entry.track,
+      counted(options.only.empty() ? entry.missions.size() : options.only.size(), "mission"));
 }
 
 void print_standings(const BenchSuiteOptions& options) {
@@ -201,6 +204,7 @@ void add_submission_parts(CLI::App& bench, const Options& o) {
   add_files(verify, o, "zip of `gnbv bench submit`");
   verify.get_option("FILE")->expected(1);
   verify.add_option("-o,--out", o->out, "folder to keep the missions in (default: none)");
+  verify.add_option("--task", o->only, "this structure alone; repeatable")->allow_extra_args(false);
   add_suite_option(verify, o);
   add_flight_options(verify, o);
 }
@@ -211,7 +215,14 @@ void add_standings_parts(CLI::App& bench, const Options& o) {
   table.add_option("--format", o->format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();
-  table.add_option("--plot", o->plot, "also draw them: a file .svg, .png or .pdf");
+  table.add_option("--plot", o->plot, "also draw them: a file .svg, .png or .pdf")
+      ->check(CLI::Validator(
+          [](const std::string& file) -> std::string {
+            const std::string kind = fs::path(file).extension().string();
+            if (kind == ".svg" || kind == ".png" || kind == ".pdf") return "";
+            return fmt::format("'{}' must end in .svg, .png or .pdf", file);
+          },
+          ""));
   add_suite_option(table, o);
   CLI::App& page =
       *add_part(bench, o, "page", "a static site of the standings; every mission is flown again",

@@ -121,8 +121,10 @@ int main(int argc, char** argv) {
   try {
     exit_code = run(argc, argv);
   } catch (const gnbv::BadInput& error) {
-    const bool may_help = dynamic_cast<const gnbv::UnportableMathematics*>(&error) != nullptr;
-    if (may_help) gnbv::restart_with_portable_mathematics(argv);
+    gnbv::say(error.what());
+    exit_code = 2;
+  } catch (const gnbv::UnportableMathematics& error) {
+    gnbv::restart_with_portable_mathematics(argv);
     gnbv::say(error.what());
     exit_code = 2;
   } catch (const gnbv::CommandFailed& failed) {

@@ -123,7 +123,7 @@ SpeedRow exchange_speed() {
   std::string folder = (std::filesystem::temp_directory_path() / "gnbv-speed-XXXXXX").string();
   GNBV_CHECK(mkdtemp(folder.data()) != nullptr, "no folder {}", folder);
   ChildProcess gnbv({GNBV_PROGRAM, "run", "smoke", "--utility", "route", "--views", "-", "--out",
-                     folder + "/run", "--quiet"},
+                     folder + "/run", "--quiet", "--set", "planner.termination.max_iterations=50"},
                     {.in = ChildStream::pipe, .out = ChildStream::pipe});
   gnbv.read_line();  // where the first view was taken
   gnbv.write("x,y,z,yaw_deg\n");

@@ -15,6 +15,7 @@ struct SuiteFlights {
   int jobs = 1;
   int threads = 0;
   bool quiet = false;
+  std::vector<std::string> only = {};  // of verifying: these tasks; empty: all
 };
 
 /// Flies what is missing of an entry into FOLDER. Throws CommandFailed when it is interrupted or a
@@ -32,8 +33,9 @@ struct EntryWords {
 Submission submission_of(const std::filesystem::path& folder, const EntryWords& words);
 
 /// Flies every mission of a submission again into FOLDER, what was commanded, without running
-/// anything of the file, and compares. A line a difference; none: it is what it says. `runs` gets
-/// the run directories, task by task.
+/// anything of the file, and compares: the figures of the track where all tasks are flown. A line a
+/// difference; none: it is what it says. `runs` gets the run directories, task by
+/// task. Throws BadInput for a task to fly that there is not.
 std::vector<std::string> verify_submission(const Submission& submission, const Suite& suite,
                                            const std::filesystem::path& folder,
                                            const SuiteFlights& flights,

@@ -119,12 +119,24 @@ void compare_records(const fs::path& run, const Submission& submission, const st
   }
 }
 
+std::vector<SuiteTask> asked_tasks(const std::vector<SuiteTask>& all,
+                                   const std::vector<std::string>& only) {
+  std::vector<SuiteTask> tasks;
+  for (const std::string& name : only) {
+    const auto task = std::ranges::find(all, name, &SuiteTask::structure);
+    if (task == all.end()) throw BadInput(fmt::format("--task {}: there is no such task", name));
+    tasks.push_back(*task);
+  }
+  return only.empty() ? all : tasks;
+}
+
 std::vector<std::string> verify(const Submission& submission, const Suite& suite,
                                 const fs::path& folder, const SuiteFlights& flights,
                                 std::vector<fs::path>* runs) {
   need_of_suite(submission, suite);
   const SuiteTrack& track = suite.track(submission.track);
-  const std::vector<SuiteTask> tasks = suite.tasks_of(track.name);
+  const std::vector<SuiteTask> all = suite.tasks_of(track.name);
+  const std::vector<SuiteTask> tasks = asked_tasks(all, flights.only);
   TaskScenarios scenarios(suite, folder / "meshes");
   std::vector<Cell> cells;
   for (const SuiteTask& task : tasks) {
@@ -140,7 +152,8 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
   std::vector<SubmittedMission> again;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::string& task = tasks[i].structure;
-    const SubmittedMission& said = submission.missions[i];
+    const SubmittedMission& said = *std::ranges::find(
+        submission.missions, task, [](const auto& mission) { return mission.figures.task; });
     const FlownAgain compare{task, differences};
     if (outcomes[i].status == CellStatus::missing) throw CommandFailed("interrupted");
     if (outcomes[i].status != CellStatus::done) {
@@ -157,7 +170,7 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
     compare_records(run, submission, task, compare, folder / "records" / task);
     again.push_back(std::move(now));
   }
-  if (again.size() == tasks.size()) {
+  if (again.size() == all.size()) {
     compare_tracks(track_figures(suite, again), submission.figures,
                    {"track " + track.name, differences});
   }
