@@ -122,9 +122,10 @@ SpeedRow exchange_speed() {
   constexpr double kLimit_ms = 1.0;
   std::string folder = (std::filesystem::temp_directory_path() / "gnbv-speed-XXXXXX").string();
   GNBV_CHECK(mkdtemp(folder.data()) != nullptr, "no folder {}", folder);
-  ChildProcess gnbv({GNBV_PROGRAM, "run", "smoke", "--utility", "route", "--views", "-", "--out",
-                     folder + "/run", "--quiet", "--set", "planner.termination.max_iterations=50"},
-                    {.in = ChildStream::pipe, .out = ChildStream::pipe});
+  ChildProcess gnbv(
+      {GNBV_PROGRAM, "run", "smoke", "--utility", "route", "--views", "-", "--out", folder + "/run",
+       "--quiet", "--set", fmt::format("planner.termination.max_iterations={}", kAsked + 1)},
+      {.in = ChildStream::pipe, .out = ChildStream::pipe});
   gnbv.read_line();  // where the first view was taken
   gnbv.write("x,y,z,yaw_deg\n");
   std::vector<double> answered_ms;
@@ -137,6 +138,7 @@ SpeedRow exchange_speed() {
     taken += gnbv.read_line().find("\"event\":\"flown\"") != std::string::npos ? 1 : 0;
     answered_ms.push_back(1e3 * watch.elapsed_s());
   }
+  gnbv.read_all();  // all views are flown: it ends by itself
   const bool is_well = gnbv.end().is_success() && taken == kAsked;
   const auto views = read_view_records(std::filesystem::path(folder) / "run" / kIterationsFile);
   for (std::size_t i = 0; is_well && i < answered_ms.size(); ++i) {
