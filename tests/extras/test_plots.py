@@ -135,7 +135,8 @@ def test_data_are_as_their_schema_says_and_the_csv_holds_them(runs, tmp_path):
                             known = series[key][i] if i < len(series[key]) else None
                             assert (float(row[key]) if row[key] else None) == known
                 assert list(rows) == []
-    assert kinds == set(schema["definitions"]["figure"]["properties"]["kind"]["enum"])
+    drawn_alone = {"standings"}  # by `bench table`, whose CSV has the numbers
+    assert kinds == set(schema["definitions"]["figure"]["properties"]["kind"]["enum"]) - drawn_alone
     for key, wrong in (("schema", 2), ("figures", [{}]), ("mine", 1)):
         assert faults(document | {key: wrong}, schema, schema)
 
