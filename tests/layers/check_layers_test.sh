@@ -74,14 +74,13 @@ library() {  # library HEADER FILE_THAT_MAY FILE_THAT_MAY_NOT...
     forbidden "$file" "#include <$1>"
   done
 }
-library embree3/rtcore.h sensors/ray_scene.cpp sensors/ray_scene.hpp bench/limits/ceiling.cpp
+library embree3/rtcore.h sensors/embree.hpp sensors/ray_scene.cpp bench/limits/ceiling.cpp
 library bullet/btBulletCollisionCommon.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library LinearMath/btTransform.h sim/flight/vehicle.cpp sim/flight/flight.hpp
 library octomap/OcTree.h planner/map/octomap_io.cpp planner/map/occupancy_grid.cpp
 library yaml-cpp/yaml.h scenarios/document.cpp tools/gnbv/main.cpp
-allowed sensors/embree_scene.hpp '#include <embree3/rtcore.h>'
-allowed bench/reference/bare_embree.cpp '#include <embree3/rtcore.h>'
-forbidden bench/reference/bare_embree.hpp '#include <embree3/rtcore.h>'
+allowed sensors/embree.hpp '#include <embree4/rtcore.h>'
+forbidden bench/reference/bare_embree.cpp '#include <embree3/rtcore.h>'
 forbidden tools/run/run_directory.cpp '#include <openssl/evp.h>'
 forbidden sim/mesh/triangle_mesh.cpp '#include <gtest/gtest.h>'
 
