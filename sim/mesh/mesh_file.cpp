@@ -23,7 +23,7 @@ void check_config(const MeshFileConfig& config) {
   const auto need = [](bool holds, const std::string& fault) {
     if (!holds) throw BadInput("mesh: " + fault);
   };
-  const auto& [path, scale, yaw_rad, offset_m, up, unit_m, lost_max, keeps_uvs] = config;
+  const auto& [path, scale, yaw_rad, offset_m, up, unit_m, lost_max] = config;
   need(!path.empty(), "path is empty");
   need(scale > 0.0 && std::isfinite(scale), fmt::format("scale = {} is not positive", scale));
   need(unit_m >= 0.0 && std::isfinite(unit_m),
@@ -63,9 +63,10 @@ Matrix4 declare(const MeshFileConfig& config, const DeclaredAxes& declared, Mesh
   return T;
 }
 
-void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& reading) {
+void read_polygons(const MeshFileConfig& config, bool is_obj, bool keeps_uvs,
+                   MeshReading& reading) {
   const Matrix4 T_world_file = declare(config, {}, reading);
-  PolygonMesh polygons = is_obj ? read_obj(config.path, reading.warnings, config.keeps_uvs)
+  PolygonMesh polygons = is_obj ? read_obj(config.path, reading.warnings, keeps_uvs)
                                 : read_ply(config.path, reading.warnings);
   if (polygons.face_ends.empty()) {
     throw BadInput(fmt::format("{}: {}", config.path, no_faces_text(polygons.vertices.size())));
@@ -79,10 +80,11 @@ void read_polygons(const MeshFileConfig& config, bool is_obj, MeshReading& readi
   reading.mesh = triangulated(std::move(polygons));
 }
 
-void read_scene(const MeshFileConfig& config, const std::string& extension, MeshReading& reading) {
+void read_scene(const MeshFileConfig& config, const std::string& extension, bool keeps_uvs,
+                MeshReading& reading) {
   MeshScene scene = extension == ".stl"   ? read_stl(config.path)
-                    : extension == ".dae" ? read_collada(config.path, config.keeps_uvs)
-                                          : read_gltf(config.path, config.keeps_uvs);
+                    : extension == ".dae" ? read_collada(config.path, keeps_uvs)
+                                          : read_gltf(config.path, keeps_uvs);
   reading.mesh = assembled(scene, declare(config, scene.declared, reading), config.path);
   reading.warnings = std::move(scene.warnings);
   reading.lost_faces = scene.lost_faces;
@@ -116,7 +118,7 @@ std::string without_path(const std::string& path, const std::string& message) {
 
 }  // namespace
 
-MeshReading read_mesh(const MeshFileConfig& config) {
+MeshReading read_mesh(const MeshFileConfig& config, bool keeps_uvs) {
   check_config(config);
   const std::string path = model_file_of(config.path).string();
   const std::string extension = extension_of(path);
@@ -125,9 +127,9 @@ MeshReading read_mesh(const MeshFileConfig& config) {
   if (is_model(path)) {
     read_links(config, path, reading);
   } else if (extension == ".obj" || extension == ".ply") {
-    read_polygons(config, extension == ".obj", reading);
+    read_polygons(config, extension == ".obj", keeps_uvs, reading);
   } else {
-    read_scene(config, extension, reading);
+    read_scene(config, extension, keeps_uvs, reading);
   }
   const auto& vertices = reading.mesh.vertices_m;
   const auto bad =

@@ -21,7 +21,6 @@ struct MeshFileConfig {
   std::string up_axis = "auto";  // auto (as the file says, or z), x, y or z
   double unit_m = 0.0;           // metres per file unit; 0: as the file says, or metres
   double lost_max = 0.01;        // share of the faces that may be lost
-  bool keeps_uvs = false;        // of surfaces without a picture, too: one will be put on them
 };
 
 /// What a file, or the specification of its format, says about its coordinates; nothing where both
@@ -48,8 +47,9 @@ struct MeshReading {
 /// OBJ and PLY files keep their numbers; those of the other formats, which repeat a vertex for each
 /// face, normal or material, are joined where their positions are equal. Materials have the diffuse
 /// colours of the file, in PLY files those of its faces or vertices. Throws BadInput naming the
-/// file and its fault, or what is wrong with the config.
-MeshReading read_mesh(const MeshFileConfig& config);
+/// file and its fault, or what is wrong with the config. `keeps_uvs`: coordinates of surfaces
+/// without a picture are kept, too, for one that is to be put on them.
+MeshReading read_mesh(const MeshFileConfig& config, bool keeps_uvs = false);
 
 /// Whether more of its faces than that share could not be used.
 bool has_lost_more(const MeshReading& reading, double lost_max);

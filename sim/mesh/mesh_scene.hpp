@@ -38,7 +38,7 @@ struct MeshScene {
 /// Normals are passed over, whatever they are. What is wrong with pictures, texture coordinates and
 /// colours is a warning.
 /// Each throws BadInput naming the file, and the place in it where there is one. `keeps_uvs`: as
-/// MeshFileConfig's.
+/// read_mesh()'s.
 
 /// Text or bytes. A facet of more than three vertices is a polygon.
 MeshScene read_stl(const std::filesystem::path& path);

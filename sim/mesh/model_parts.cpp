@@ -153,8 +153,8 @@ const TriangleMesh& ModelParts::mesh_at(const fs::path& file, bool keeps_uvs) {
   const auto [entry, is_new] = meshes_.try_emplace({file.lexically_normal().string(), keeps_uvs});
   if (!is_new) return entry->second;
   const bool is_collada = extension_of(file) == ".dae";
-  MeshReading part = read_mesh(
-      {.path = entry->first.first, .up_axis = is_collada ? "z" : "auto", .keeps_uvs = keeps_uvs});
+  MeshReading part =
+      read_mesh({.path = entry->first.first, .up_axis = is_collada ? "z" : "auto"}, keeps_uvs);
   if (!part.not_finite.empty() && reading.not_finite.empty()) reading.not_finite = part.not_finite;
   reading.lost_faces += part.lost_faces;
   reading.warnings.insert(reading.warnings.end(), part.warnings.begin(), part.warnings.end());

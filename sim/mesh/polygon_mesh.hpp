@@ -40,7 +40,7 @@ struct PolygonMesh {
 /// Leaves out unreadable lines, faces of vertices that do not exist and surfaces that are no
 /// polygons, and counts them in `warnings`. Throws BadInput naming the line where that could number
 /// vertices wrongly: a line beside a vertex that begins with no keyword, with more vertices after
-/// it. `keeps_uvs`: as MeshFileConfig's.
+/// it. `keeps_uvs`: as read_mesh()'s.
 PolygonMesh read_obj(const std::filesystem::path& path, std::vector<std::string>& warnings,
                      bool keeps_uvs = false);
 /// The same of a text and that of its material library. Messages call the text `path`.
