@@ -138,7 +138,7 @@ bool visit_nearest(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
-/// GNBV_EMBREE adds to it, for tests: isa=avx2, say.
+/// GNBV_EMBREE adds to it, for tests: max_isa=avx2, say.
 std::string device_config() {
   const char* const more = std::getenv("GNBV_EMBREE");
   return std::string("threads=1") + (more == nullptr ? "" : std::string(",") + more);
@@ -161,9 +161,7 @@ EmbreeScene::EmbreeScene(const World& world)
   for (const TriangleMesh* part : {&world.structure, &world.obstacles, &world.terrain}) {
     need_indices(*part);
     if (id != structure && !part->faces.empty()) append(meshes, *part);
-    if (!part->faces.empty()) {
-      attach(*this, id, part->vertices_m, part->faces);
-    }
+    if (!part->faces.empty()) attach(*this, id, part->vertices_m, part->faces);
     first_face[++id] = static_cast<std::uint32_t>(meshes.faces.size());
   }
   if (world.has_ground) {

@@ -103,7 +103,7 @@ CameraStream::CameraStream(const RayScene& scene, std::vector<CameraModel> camer
     video_ = std::make_unique<ChildProcess>(
         ffmpeg_command(cameras_.front().config, options_.rate_hz * options_.speed,
                        options_.video_url),
-        // of what to expect (SDP), which ffmpeg prints, MAVLink's camera protocol tells
+        // ffmpeg prints what a receiver has to know (SDP); MAVLink's camera protocol says it, too
         ChildOptions{.in = ChildStream::pipe, .out = ChildStream::nothing, .is_apart = true});
     if (video_->start_error() != 0) {
       throw BadInput("--video: needs ffmpeg on the PATH, Debian package ffmpeg");

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "sim/core/file.hpp"
+#include "sim/core/stopwatch.hpp"
 #include "tools/sweep/bench_runs.hpp"
 #include "tools/sweep/missions_csv.hpp"
 #include "tools/terminal/say.hpp"
@@ -101,11 +102,17 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
     }
     if (!options.missions.empty()) write_rows(file, all.rows, options.missions);
   };
+  Stopwatch since_write;
+  double write_s = 0.0;
   const auto take = [&](std::size_t flown, const std::filesystem::path& folder, MissionRow row) {
     row.commit = options.commit;
     rows[places[flown]] = std::move(row);
     folders[places[flown]] = folder;
+    // of thousands, which another call has flown, not each is worth a file of all
+    if (options.missions.empty() || since_write.elapsed_s() < 10.0 * write_s) return;
+    since_write = {};
     write();
+    write_s = since_write.elapsed_s();
   };
   const BenchRuns flown = fly_cells(to_fly, options, ceilings_of(to_fly, baseline, options), take);
   all.notes = flown.notes;
