@@ -126,6 +126,7 @@ void OccupancyGrid::add_log_odds(std::span<const VoxelIndex> voxels, StepMemo& m
 bool OccupancyGrid::restore(VoxelIndex v, float log_odds) {
   if (is_measured(v) || !(log_odds >= clamp_min_log_ && log_odds <= clamp_max_log_)) return false;
   take_step(v, step_to(log_odds, log_odds_[v]));
+  ++updates_;
   return true;
 }
 
@@ -145,6 +146,7 @@ bool OccupancyGrid::shade(VoxelIndex v) {
 void OccupancyGrid::apply(const ScanUpdate& update) {
   add_log_odds(update.free, misses_);
   add_log_odds(update.occupied, hits_);
+  ++updates_;
 }
 
 }  // namespace gnbv

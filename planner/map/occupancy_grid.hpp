@@ -64,6 +64,8 @@ class OccupancyGrid {
   /// of updates changes it.
   double total_entropy_nat() const { return static_cast<double>(total_entropy_) * 0x1p-32; }
   std::size_t occupied_count() const { return occupied_count_; }
+  /// Grows whenever the state of some voxel may have changed.
+  std::uint64_t updates() const { return updates_; }
 
   /// Adds the log-odds of a miss to each free voxel and of a hit to each occupied one, clamped.
   void apply(const ScanUpdate& update);
@@ -125,6 +127,7 @@ class OccupancyGrid {
   ZeroedArray<VoxelWord> words_;
   std::int64_t total_entropy_ = 0;  // in 2^-32 nat
   std::size_t occupied_count_ = 0, predicted_count_ = 0;
+  std::uint64_t updates_ = 0;
   StepMemo hits_, misses_;
 };
 

@@ -43,11 +43,15 @@ struct RaySteps {
 
   /// Goes on to the next voxel; false when the ray ends before it, or there.
   bool advance() {
-    // OctoMap's choice among equals
-    const std::size_t axis = t_next[0] < t_next[1] ? (t_next[0] < t_next[2] ? 0U : 2U)
-                                                   : (t_next[1] < t_next[2] ? 1U : 2U);
-    key[axis] += step[axis];
-    t_next[axis] += t_voxel[axis];
+    // OctoMap's choice among equals; without a branch, which would be guessed wrong
+    const bool is_x_first = t_next[0] < t_next[1];
+    const bool is_x = is_x_first & (t_next[0] < t_next[2]);
+    const bool is_y = !is_x_first & (t_next[1] < t_next[2]);
+    const std::array<bool, 3> is_next = {is_x, is_y, !(is_x | is_y)};
+    for (std::size_t a = 0; a < 3; ++a) {
+      key[a] += is_next[a] ? step[a] : 0;
+      t_next[a] += is_next[a] ? t_voxel[a] : 0.0;
+    }
     // rounding may walk past the end voxel: stop at the ray's length
     return key != key_end && !(std::min({t_next[0], t_next[1], t_next[2]}) > length_m);
   }

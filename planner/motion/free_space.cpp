@@ -224,13 +224,24 @@ void OpenSpace::follow(const OccupancyGrid& grid, const HeedStop& stop) {
       count = is_occupied ? count + 1 : count - 1;
     }
   }
+  constexpr std::size_t kBits = 64;
+  passable_.assign((words.size() + kBits - 1) / kBits, 0);
+  for (std::size_t v = 0; v < words.size(); ++v) {
+    const bool is_free = state_of(words[v]) == VoxelState::free;
+    passable_[v / kBits] |= std::uint64_t{is_free && near_occupied_[v] == 0} << (v % kBits);
+  }
+  followed_ = grid.updates();
+}
+
+bool OpenSpace::is_passable(const OccupancyGrid& grid, VoxelIndex v) const {
+  if (grid.updates() == followed_) return (passable_[v / 64] >> (v % 64) & 1U) != 0;
+  return near_occupied_[v] == 0 && grid.state(v) == VoxelState::free;
 }
 
 bool OpenSpace::is_open(const OccupancyGrid& grid, const Key& key) const {
   if (!geometry_.contains(key)) return false;
   const VoxelIndex v = geometry_.index_of(key);
-  return near_occupied_[v] == 0 && grid.state(v) == VoxelState::free &&
-         navigation_m_.contains(geometry_.center_m(key));
+  return is_passable(grid, v) && navigation_m_.contains(geometry_.center_m(key));
 }
 
 bool OpenSpace::is_line_open(const OccupancyGrid& grid, const Vec3& from_world_m,
@@ -238,14 +249,18 @@ bool OpenSpace::is_line_open(const OccupancyGrid& grid, const Vec3& from_world_m
   const Vec3 to_m = geometry_.nearest_inside(to_world_m);
   if (!is_open(grid, geometry_.key_of(to_m))) return false;
   FreeFromVehicle line(grid, from_world_m, radius_m_);
-  bool was_open = false;
+  bool is_away = false;    // was anywhere: from there on nothing may be near
+  bool is_beyond = false;  // in seen space, too: from there on all has to be passable
   return all_along_ray(geometry_, geometry_.nearest_inside(from_world_m).cast<float>(),
                        to_m.cast<float>(), [&](const Key& key) {
-                         if (!line.is_free(key)) return false;
-                         const bool is_away = near_occupied_[geometry_.index_of(key)] == 0;
-                         const bool is_clear = is_away || !was_open;
-                         was_open = was_open || is_away;
-                         return is_clear;
+                         if (!geometry_.contains(key)) return false;
+                         const VoxelIndex v = geometry_.index_of(key);
+                         const bool is_open = is_passable(grid, v);
+                         is_beyond = is_beyond || is_open;
+                         if (is_beyond) return is_open;
+                         const bool may_be_near = !is_away;
+                         is_away = is_away || near_occupied_[v] == 0;
+                         return line.is_free(key) && (may_be_near || near_occupied_[v] == 0);
                        });
 }
 

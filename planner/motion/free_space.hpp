@@ -95,12 +95,19 @@ class OpenSpace {
                     const Vec3& to_world_m) const;
 
  private:
+  /// Whether the voxel is free, and nothing too near to it.
+  bool is_passable(const OccupancyGrid& grid, VoxelIndex v) const;
+
   GridGeometry geometry_;
   Box3 navigation_m_;
   double radius_m_;
   std::vector<Key> ball_;                     // offsets at which an occupied voxel is too near
   ZeroedArray<std::uint32_t> near_occupied_;  // so many, and one more where nobody may fly
   ZeroedArray<std::uint8_t> was_occupied_;
+  // is_passable() of each voxel as long as the grid stays as it was followed: bits, which a cache
+  // holds
+  std::vector<std::uint64_t> passable_;
+  std::uint64_t followed_ = 0;  // OccupancyGrid::updates()
 };
 
 }  // namespace gnbv

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/core/rng.hpp"
+
 namespace gnbv {
 namespace {
 
@@ -64,8 +66,36 @@ Roadmap::Node Roadmap::nearest(const Vec3& p_world_m) const {
   return lattice_node(at);
 }
 
+template <typename Ask>
+bool Roadmap::KnownLines::is_open(Node from, Node to, const Ask& ask) {
+  if (2 * used_ >= slots_.size()) grow();
+  const std::uint64_t line = std::uint64_t{from} << 32 | (to + 1);
+  std::uint64_t& slot = slots_[slot_of(line)];
+  if (slot == 0) {
+    slot = 2 * line + (ask() ? 1 : 0);
+    ++used_;
+  }
+  return (slot & 1) != 0;
+}
+
+std::size_t Roadmap::KnownLines::slot_of(std::uint64_t line) const {
+  const std::size_t last = slots_.size() - 1;  // a mask: their number is a power of 2
+  std::size_t at = mix_bits(line) & last;
+  while (slots_[at] != 0 && slots_[at] / 2 != line) at = (at + 1) & last;
+  return at;
+}
+
+void Roadmap::KnownLines::grow() {
+  constexpr std::size_t kFirst = 1 << 14;
+  std::vector<std::uint64_t> known(std::max(kFirst, 2 * slots_.size()), 0);
+  known.swap(slots_);
+  for (const std::uint64_t slot : known) {
+    if (slot != 0) slots_[slot_of(slot / 2)] = slot;
+  }
+}
+
 void Roadmap::link(Node a, Node b) {
-  if (is_open_[b] == 0 || !space_->is_line_open(*grid_, p_world_m_[a], p_world_m_[b])) return;
+  if (is_open_[b] == 0 || !is_line_open(a, b)) return;
   legs_[a].push_back(b);
   legs_[b].push_back(a);
 }
@@ -116,6 +146,7 @@ void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Ve
   space_ = &space;
   ++follows_;
   rows_.erase(here());
+  lines_.forget();
   std::erase_if(rows_, [&](const auto& row) { return row.second.made + kRowFollows < follows_; });
   p_world_m_[here()] = here_world_m;
   is_open_.resize(size(), 0);
@@ -139,7 +170,7 @@ void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Ve
 /// reached straight from the node before its neighbour, across the lattice. Whether that line is
 /// open is asked only once the search comes to the node; if not, the way leads over a leg.
 struct Roadmap::LazyGraph {
-  const Roadmap& map;
+  Roadmap& map;
   Ways<float>& ways;
   Node from;
 
@@ -163,7 +194,9 @@ struct Roadmap::LazyGraph {
   template <typename Use>
   void visit(Node node, const Use& use) const {
     const Node before = ways.before[node];
-    for (const Node next : map.legs_[node]) use(before, next, map.leg_m(before, next));
+    for (const Node next : map.legs_[node]) {
+      if (ways.is_done[next] == 0) use(before, next, map.leg_m(before, next));
+    }
   }
   bool may_fly(Node /*node*/, Node /*next*/) const { return true; }
 
@@ -171,7 +204,7 @@ struct Roadmap::LazyGraph {
   bool is_straight_from(Node before, Node node) const {
     if (before == node) return true;
     return map.leg_m(before, node) <= static_cast<float>(kLongestLegSteps * map.step_m_) &&
-           map.space_->is_line_open(*map.grid_, map.p_world_m_[before], map.p_world_m_[node]);
+           map.lines_.is_open(before, node, [&] { return map.is_line_open(before, node); });
   }
 };
 
@@ -201,6 +234,8 @@ const Roadmap::Row& Roadmap::row(Node from, const HeedStop& stop) {
   if (at == rows_.end()) {
     Row made{.made = follows_, .followed = follows_};
     made.ways.grow(size());
+    if (lines_of_ != grid_->updates()) lines_.forget();
+    lines_of_ = grid_->updates();
     LazyGraph graph{*this, made.ways, from};
     find_ways(graph, from, made.ways, stop);
     at = rows_.emplace(from, std::move(made)).first;

@@ -48,6 +48,26 @@ class Roadmap {
   std::vector<Vec3> via_world_m(Node from, Node to);
 
  private:
+  /// Which lines between two nodes are open, as long as nothing changes: rows ask of four in five
+  /// again.
+  class KnownLines {
+   public:
+    void forget() {
+      slots_.assign(slots_.size(), 0);
+      used_ = 0;
+    }
+    /// What is known of the line; else what ask() says of it.
+    template <typename Ask>
+    bool is_open(Node from, Node to, const Ask& ask);
+
+   private:
+    void grow();
+    /// Where the line is or would be.
+    std::size_t slot_of(std::uint64_t line) const;
+
+    std::vector<std::uint64_t> slots_;  // twice the line, and 1 more where it is open; 0: none
+    std::size_t used_ = 0;
+  };
   struct Row {
     Ways<float> ways = {};
     std::uint32_t made = 0;      // in which follow() it was searched,
@@ -61,6 +81,9 @@ class Roadmap {
   void link(Node a, Node b);
   void link_lattice(const HeedStop& stop);
   void link_others(const HeedStop& stop);
+  bool is_line_open(Node from, Node to) const {
+    return space_->is_line_open(*grid_, p_world_m_[from], p_world_m_[to]);
+  }
   float leg_m(Node a, Node b) const {
     return static_cast<float>((p_world_m_[a] - p_world_m_[b]).norm());
   }
@@ -79,6 +102,8 @@ class Roadmap {
   const OccupancyGrid* grid_ = nullptr;  // of the last follow()
   const OpenSpace* space_ = nullptr;
   std::map<Node, Row> rows_;
+  KnownLines lines_;
+  std::uint64_t lines_of_ = 0;  // OccupancyGrid::updates()
   std::uint32_t follows_ = 0;
 };
 

@@ -24,6 +24,8 @@ constexpr float kNoDepth = std::numeric_limits<float>::infinity();
 
 constexpr double kBlockCells = 8.0;  // along an edge
 
+int ceil_to_int(float x) { return -floor_to_int(-x); }
+
 void pack(const SurfaceCells& cells, CellBlocks::Block& block) {
   block.cells.clear();
   block.discs_m.clear();
@@ -116,44 +118,35 @@ void PatchViewer::begin(const CameraModel& camera, const Isometry& T_world_camer
   R_camera_world_ = T_world_camera.linear().transpose().cast<float>();
   origin_world_m_ = T_world_camera.translation().cast<float>();
   range_max_m_ = static_cast<float>(return_end_m(c));
-  depth_m_.assign(static_cast<std::size_t>(width_ * height_), kNoDepth);
+  depth_m_.assign(static_cast<std::size_t>(width_ * height_) + kDiscPadding, kNoDepth);
   const auto set_rays = [](int pixels, float center, float focal, std::vector<float>& rays) {
     rays.clear();
     for (int i = 0; i < pixels; ++i) {
       rays.push_back((static_cast<float>(i) + 0.5F - center) / focal);
     }
+    rays.resize(rays.size() + kDiscPadding);
   };
   set_rays(width_, cx_, fx_, ray_x_);
   set_rays(height_, cy_, fy_, ray_y_);
 }
 
-/// The ray through a pixel is t (ray_x, ray_y, 1) in the camera's frame. It meets the disc's plane,
-/// the points q with normal . q = normal . p, at the depth t = normal . p / normal . (ray_x, ray_y,
-/// 1); the pixel is covered where that point lies within the radius of p. Only pixels in the square
-/// about the disc's middle are asked.
+/// Only pixels in the square about the disc's middle are asked.
 void PatchViewer::draw(const Vec3f& p, const Vec3f& normal, float radius_m) {
-  const float along = normal.dot(p);
   const float u = fx_ * p.x() / p.z() + cx_;
   const float v = fy_ * p.y() / p.z() + cy_;
   const float half = fx_ * radius_m / p.z();
-  const int u0 = std::max(0, static_cast<int>(std::ceil(u - half - 0.5F)));
-  const int u1 = std::min(width_ - 1, static_cast<int>(std::floor(u + half - 0.5F)));
-  const int v0 = std::max(0, static_cast<int>(std::ceil(v - half - 0.5F)));
-  const int v1 = std::min(height_ - 1, static_cast<int>(std::floor(v + half - 0.5F)));
-  for (int y = v0; y <= v1; ++y) {
-    const float ray_y = ray_y_[y];
-    const float across_row = normal.y() * ray_y + normal.z();
-    float* const row_m = &depth_m_[static_cast<std::size_t>(y * width_)];
-    for (int x = u0; x <= u1; ++x) {
-      const float ray_x = ray_x_[x];
-      const float across = normal.x() * ray_x + across_row;
-      if (std::fabs(across) < 1e-3F) continue;
-      const float z_m = along / across;
-      const Vec3f off_m(z_m * ray_x - p.x(), z_m * ray_y - p.y(), z_m - p.z());
-      if (!(off_m.squaredNorm() <= radius_m * radius_m)) continue;
-      row_m[x] = std::min(row_m[x], z_m);
-    }
-  }
+  const auto first = [&](float middle) { return std::max(0, ceil_to_int(middle - half - 0.5F)); };
+  const auto last = [&](float middle, int pixels) {
+    return std::min(pixels - 1, floor_to_int(middle + half - 0.5F));
+  };
+  discs_.push_back({.p_m = {p.x(), p.y(), p.z()},
+                    .normal = {normal.x(), normal.y(), normal.z()},
+                    .along_m = normal.dot(p),
+                    .radius2_m2 = radius_m * radius_m,
+                    .u0 = first(u),
+                    .u1 = last(u, width_),
+                    .v0 = first(v),
+                    .v1 = last(v, height_)});
 }
 
 bool PatchViewer::is_before(const Vec3f& p, float cos_incidence, float bias_m) const {
@@ -192,6 +185,7 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
                           std::vector<SeenPatch>& seen) {
   begin(camera, T_world_body * camera.T_body_camera);
   in_image_.clear();
+  discs_.clear();
   for (const CellBlocks::Block* block : blocks) {
     const Vec3f middle = to_camera(block->center_m);
     const bool is_in_reach =
@@ -199,6 +193,8 @@ void PatchViewer::observe(const TourScene& scene, const CameraModel& camera,
     if (!is_in_reach || !is_in_cone(middle, slant() * block_radius_m)) continue;
     for (const CellBlocks::Cell& cell : block->cells) draw_cell(scene, *block, cell);
   }
+  disc_kernels().draw(discs_.data(), discs_.size(),
+                      {ray_x_.data(), ray_y_.data(), depth_m_.data(), width_});
   const auto range_min_m = static_cast<float>(camera.config.range_min_m);
   const auto cos_min = static_cast<float>(std::cos(scene.config.incidence_max_rad));
   const float bias_m = kBias * static_cast<float>(scene.cells.detail_m());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/tour/config.hpp"
+#include "planner/tour/disc_loops.hpp"
 #include "planner/tour/gains.hpp"
 #include "sensors/camera_model.hpp"
 
@@ -97,6 +98,7 @@ class PatchViewer {
   std::vector<float> ray_x_, ray_y_;  // through the middles of columns and rows, at depth 1
   std::vector<float> depth_m_;
   std::vector<std::uint32_t> in_image_;  // cells
+  std::vector<Disc> discs_;              // of them, to be drawn
 };
 
 /// How far a camera reaches from the vehicle, in m.

@@ -173,8 +173,8 @@ double automatic_step_m(std::span<const CameraModel> cameras, const Box3& naviga
 }
 
 double tour_bytes(const TourConfig& config, const Box3& workspace_m, double resolution_m) {
-  constexpr double kVoxel_bytes = 5.0;  // OpenSpace
-  constexpr double kCell_bytes = 4.0;   // SurfaceCells
+  constexpr double kVoxel_bytes = 5.125;  // OpenSpace
+  constexpr double kCell_bytes = 4.0;     // SurfaceCells
   const auto count = [&](double edge_m) {
     return (workspace_m.sizes() / edge_m + Vec3::Ones()).prod();
   };

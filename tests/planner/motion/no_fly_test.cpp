@@ -177,5 +177,26 @@ TEST(OpenSpace, AnOpenLineKeepsTheRadiusWithinHalfAVoxel) {
   EXPECT_GT(open, 20);
 }
 
+/// What it keeps of the grid that it followed says the same as the rule, which it goes by once the
+/// grid has changed.
+TEST(OpenSpace, AnswersAlikeAsLongAsTheGridStaysAndAfterwards) {
+  const OccupancyGrid grid = scattered_grid(5);
+  OccupancyGrid later = grid;
+  later.apply({});
+  OpenSpace space(grid.geometry(), kBox, {}, kRadius_m);
+  space.follow(grid);
+  int open = 0, shut = 0;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const auto at = [&](std::uint64_t k) { return uniform01({6, Stream::bench, i, k}); };
+    const Vec3 a(6 * at(0) - 3, 6 * at(1) - 3, 3 * at(2));
+    const Vec3 b = a + Vec3(at(3) - 0.5, at(4) - 0.5, at(5) - 0.5);
+    const bool is_open = space.is_line_open(grid, a, b);
+    ASSERT_EQ(is_open, space.is_line_open(later, a, b)) << a.transpose() << " " << b.transpose();
+    ++(is_open ? open : shut);
+  }
+  EXPECT_GT(open, 1000);
+  EXPECT_GT(shut, 1000);
+}
+
 }  // namespace
 }  // namespace gnbv

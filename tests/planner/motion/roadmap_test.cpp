@@ -112,6 +112,22 @@ TEST(Roadmap, AWayThatIsKeptLearnsOfPlacesThatOpen) {
   EXPECT_LE(length_m, 1.3 * straight_m);
 }
 
+TEST(Roadmap, AWayThatIsAskedForLaterKnowsTheMapOfThen) {
+  World asked(free_grid(kBox));
+  World fresh(free_grid(kBox));
+  const Roadmap::Node from = 1;
+  const std::span<const float> before_m = asked.roadmap.row_m(from);
+  const std::vector<float> free_m(before_m.begin(), before_m.end());
+  for (World* world : {&asked, &fresh}) {
+    fill(world->grid, Box3(Vec3(-1, -4, 0), Vec3(1, 4, 4)));
+    world->roadmap.forget_ways();
+  }
+  const std::span<const float> asked_m = asked.roadmap.row_m(from);
+  const std::span<const float> fresh_m = fresh.roadmap.row_m(from);
+  EXPECT_TRUE(std::ranges::equal(asked_m, fresh_m));
+  EXPECT_FALSE(std::ranges::equal(asked_m, free_m));
+}
+
 TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
   OccupancyGrid grid(OccupancyConfig{}, kBox);
   const Vec3 here_m(-4.9, -4.9, 1.1);
