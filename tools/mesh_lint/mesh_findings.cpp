@@ -246,8 +246,9 @@ void add_view_findings(const MeshReport& report, Findings& out) {
   out.push_back(tallied(
       "facing", behind.count, share > 0.05 ? Severity::warning : Severity::note,
       "no face shows only its back to the outside",
-      fmt::format("{} only the back to the outside ({} of the surface); the sensors see both "
+      fmt::format("{}{} only the back to the outside ({} of the surface); the sensors see both "
                   "sides, other programs may not",
+                  view.is_estimate ? "about " : "",
                   counted(behind.count, "face shows", "faces show"), percent(share)),
       "Blender: Edit Mode, Mesh > Normals > Recalculate Outside"));
   const double hidden = view.hidden_area_m2 / view.area_m2;

@@ -1,10 +1,10 @@
 // view_from_outside() of mesh_report.hpp.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "bench/score/escape_search.hpp"
 #include "sim/core/parallel.hpp"
+#include "sim/core/rng.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
 
 namespace gnbv {
@@ -24,30 +24,61 @@ Vec3f normal_of(const TriangleMesh& mesh, std::uint32_t face) {
 /// whose front is seen is asked no further.
 void find_sides(const TriangleMesh& mesh, const RayScene& scene, const ReferenceConfig& config,
                 std::span<const SurfaceSample> samples, std::span<std::uint8_t> seen) {
-  constexpr float kGrazing = 0.02F;
-  std::vector<std::size_t> open(samples.size());
-  std::iota(open.begin(), open.end(), std::size_t{0});
+  constexpr float kGrazing = 0.02F;  // lines in the plane of the face tell nothing
+  std::vector<Vec3f> normals;
+  for (const SurfaceSample& sample : samples) normals.push_back(normal_of(mesh, sample.face));
+  std::vector<Vec3f> origins;
+  std::vector<std::size_t> asked;
   for (const Vec3f& direction : spread_directions(config.directions)) {
-    std::vector<Vec3f> origins;
-    for (const std::size_t i : open) origins.push_back(samples[i].p_world_m);
-    std::vector<std::uint8_t> blocked(open.size());
-    const std::vector<Vec3f> along(open.size(), direction);
+    origins.clear();
+    asked.clear();
+    const auto side_of = [&](std::size_t i) {
+      const float cosine = direction.dot(normals[i]);
+      return std::abs(cosine) <= kGrazing ? kNone : cosine > 0.0F ? kFront : kBack;
+    };
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const bool is_new = (side_of(i) & ~seen[i]) != 0;
+      if (!is_new || (seen[i] & kFront) != 0) continue;
+      asked.push_back(i);
+      origins.push_back(samples[i].p_world_m);
+    }
+    std::vector<std::uint8_t> blocked(asked.size());
+    const std::vector<Vec3f> along(asked.size(), direction);
     scene.find_blocked(kStructurePart, origins, along, static_cast<float>(config.escape_near_m),
                        kEndless, blocked);
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      if (blocked[k] != 0) continue;
-      const float cosine = direction.dot(normal_of(mesh, samples[open[k]].face));
-      // lines in the plane of the face tell nothing
-      if (std::abs(cosine) > kGrazing) seen[open[k]] |= cosine > 0.0F ? kFront : kBack;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      if (blocked[k] == 0) seen[asked[k]] |= side_of(asked[k]);
     }
-    std::erase_if(open, [&](std::size_t i) { return (seen[i] & kFront) != 0; });
   }
+}
+
+/// Faces that stand for all: their samples, their area and how many they are.
+struct AskedFaces {
+  std::vector<SurfaceSample> samples;
+  double area_m2 = 0.0;
+  std::size_t count = 0;
+};
+
+/// All faces; of many some.
+AskedFaces asked_faces(const TriangleMesh& mesh) {
+  constexpr double kSamples = 20000.0;
+  constexpr std::size_t kMany = 200000;
+  constexpr std::size_t kSome = 50000;
+  const std::size_t one_in = mesh.faces.size() < kMany ? 1 : mesh.faces.size() / kSome;
+  const auto is_asked = [&](std::uint32_t face) { return mix_bits(face) % one_in == 0; };
+  AskedFaces asked{.samples = sample_about(mesh, kSamples)};
+  std::erase_if(asked.samples, [&](const SurfaceSample& s) { return !is_asked(s.face); });
+  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+    if (!is_asked(face)) continue;
+    asked.area_m2 += face_area_m2(mesh, face);
+    ++asked.count;
+  }
+  return asked;
 }
 
 }  // namespace
 
 OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, int threads) {
-  constexpr double kSamples = 20000.0;
   constexpr std::size_t kChunk = 4096;
   const World world{.structure = sound_part(whole, lint), .has_ground = false};
   const TriangleMesh& mesh = world.structure;
@@ -60,12 +91,14 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
     if (lint.is_sound[i]) is_two_sided.push_back(lint.is_two_sided[i]);
   }
   const RayScene scene(world);
-  const std::vector<SurfaceSample> samples = sample_about(mesh, kSamples);
+  const AskedFaces asked = asked_faces(mesh);
+  const std::vector<SurfaceSample>& samples = asked.samples;
   ReferenceConfig config;
   // more samples, each of less surface, get by with fewer directions
+  constexpr double kEnough = 20000.0;
   constexpr double kFewest = 128.0;
   config.directions = static_cast<int>(std::clamp(
-      config.directions * kSamples / static_cast<double>(std::max<std::size_t>(samples.size(), 1)),
+      config.directions * kEnough / static_cast<double>(std::max<std::size_t>(samples.size(), 1)),
       kFewest, static_cast<double>(config.directions)));
   const std::vector<std::uint8_t> sees_out =
       samples_seeing_out(world, scene, samples, config, threads);
@@ -93,6 +126,12 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
     ++view.from_behind.count;
     view.from_behind.area_m2 += face_area_m2(mesh, face);
   }
+  view.is_estimate = asked.count < mesh.faces.size();
+  if (!view.is_estimate || asked.area_m2 == 0.0) return view;
+  const double all_over_asked = view.area_m2 / asked.area_m2;
+  view.hidden_area_m2 *= all_over_asked;
+  view.from_behind.area_m2 *= all_over_asked;
+  view.from_behind.count = view.from_behind.count * mesh.faces.size() / asked.count;
   return view;
 }
 

@@ -75,6 +75,40 @@ TEST(OutsideView, SheetsSeenFromBothSidesPointNowhereWrong) {
   EXPECT_EQ(view_of(mesh).from_behind.count, 0U);
 }
 
+/// Each face in four of the same shape.
+TriangleMesh finer(const TriangleMesh& mesh) {
+  TriangleMesh fine;
+  for (const auto& face : mesh.faces) {
+    std::array<Vec3f, 3> corner, middle;
+    for (std::size_t i = 0; i < 3; ++i) corner[i] = mesh.vertices_m[face[i]];
+    for (std::size_t i = 0; i < 3; ++i) middle[i] = 0.5F * (corner[i] + corner[(i + 1) % 3]);
+    const auto first = static_cast<std::uint32_t>(fine.vertices_m.size());
+    fine.vertices_m.insert(fine.vertices_m.end(), corner.begin(), corner.end());
+    fine.vertices_m.insert(fine.vertices_m.end(), middle.begin(), middle.end());
+    for (const auto& [a, b, c] :
+         {std::array{0U, 3U, 5U}, {3U, 1U, 4U}, {5U, 4U, 2U}, {3U, 4U, 5U}}) {
+      fine.faces.push_back({first + a, first + b, first + c});
+    }
+  }
+  return fine;
+}
+
+TEST(OutsideView, OfManyFacesSomeStandForAll) {
+  TriangleMesh mesh;
+  add_box(mesh, {0, 0, 0}, {4, 4, 4});  // 96 m2
+  add_box(mesh, {1, 1, 1}, {2, 2, 2});  // 24 m2, hidden
+  turn_faces(mesh, 0, 12);
+  EXPECT_FALSE(view_of(mesh).is_estimate);
+  for (int i = 0; i < 7; ++i) mesh = finer(mesh);
+  ASSERT_EQ(mesh.faces.size(), std::size_t{24} << 14);
+  const OutsideView view = view_of(mesh);
+  EXPECT_TRUE(view.is_estimate);
+  EXPECT_NEAR(view.area_m2, 120.0, 1e-2);
+  EXPECT_NEAR(view.hidden_area_m2, 24.0, 1.0);
+  EXPECT_NEAR(view.from_behind.area_m2, 96.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(view.from_behind.count), 12 << 14, 0.02 * (12 << 14));
+}
+
 TEST(OutsideView, DoesNotDependOnTheNumberOfThreads) {
   TriangleMesh mesh = make_builtin_structure("smoke");
   turn_faces(mesh, 0, mesh.faces.size() / 3);
