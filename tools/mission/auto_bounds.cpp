@@ -125,9 +125,12 @@ double flight_margin_m(const Scenario& scenario) {
 
 StructureExtent extent_of(const TriangleMesh& structure) {
   constexpr double kSamples = 2000.0;
+  constexpr std::size_t kMost = 100000;  // of a sample a face
   StructureExtent extent{.box_m = bounds_m(structure), .surface_world_m = {}};
-  for (const SurfaceSample& s : sample_about(structure, kSamples)) {
-    extent.surface_world_m.push_back(s.p_world_m);
+  const std::vector<SurfaceSample> samples = sample_about(structure, kSamples);
+  const std::size_t one_in = samples.size() / kMost + 1;
+  for (std::size_t i = 0; i < samples.size(); i += one_in) {
+    extent.surface_world_m.push_back(samples[i].p_world_m);
   }
   return extent;
 }
