@@ -81,15 +81,14 @@ GlbBuffer::Json glb_part(const TriangleMesh& mesh, std::size_t material, GlbBuff
 }
 
 std::string glb_bytes_of(const TriangleMesh& mesh) {
-  using Json = GlbBuffer::Json;
   GlbBuffer buffer;
-  Json materials = Json::array(), primitives = Json::array();
+  auto materials = GlbBuffer::Json::array(), primitives = GlbBuffer::Json::array();
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const auto& [r, g, b] = mesh.materials[i].rgb;
     materials.push_back({{"name", mesh.materials[i].name},
                          {"pbrMetallicRoughness",
                           {{"baseColorFactor", {r, g, b, 1.0F}}, {"metallicFactor", 0.0}}}});
-    if (Json part = glb_part(mesh, i, buffer); !part.is_null()) primitives.push_back(part);
+    if (const auto part = glb_part(mesh, i, buffer); !part.is_null()) primitives.push_back(part);
   }
   return glb_bytes({{"asset", {{"version", "2.0"}, {"generator", "gnbv"}}},
                     {"scene", 0},

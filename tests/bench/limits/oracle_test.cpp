@@ -91,61 +91,57 @@ double duration_s(const std::vector<Decision>& views) {
   return total_s;
 }
 
-TEST(Oracle, KeepsTheRadiusAllTheWay) {
+void expect_radius_kept(const std::vector<Decision>& views) {
   const Smoke& s = smoke();
   const ValidityConfig& validity = s.scenario.planner.validity;
   const Box3 box = navigation_box_m(validity, s.scenario.workspace_m);
-  for (const std::string aim : kAims) {
-    Vec3 at_m = s.start.p_world_m;
-    for (const Decision& view : route(aim)) {
-      std::vector<Vec3> points_m = view.via_world_m;
-      points_m.push_back(view.view.p_world_m);
-      for (const Vec3& next_m : points_m) {
-        for (double t = 0.0; t <= 1.0; t += 0.01) {
-          const Vec3 p = (1.0 - t) * at_m + t * next_m;
-          ASSERT_GE(s.scene.distance_to_structure_m(p, 100.0), validity.collision_radius_m - 1e-9);
-          ASSERT_LT(box.squaredExteriorDistance(p), 1e-12);
-        }
-        at_m = next_m;
+  Vec3 at_m = s.start.p_world_m;
+  for (const Decision& view : views) {
+    std::vector<Vec3> points_m = view.via_world_m;
+    points_m.push_back(view.view.p_world_m);
+    for (const Vec3& next_m : points_m) {
+      for (double t = 0.0; t <= 1.0; t += 0.01) {
+        const Vec3 p = (1.0 - t) * at_m + t * next_m;
+        ASSERT_GE(s.scene.distance_to_structure_m(p, 100.0), validity.collision_radius_m - 1e-9);
+        ASSERT_LT(box.squaredExteriorDistance(p), 1e-12);
       }
+      at_m = next_m;
     }
   }
 }
 
-TEST(Oracle, FindsItsShareOfWhatAllViewsTogetherKeep) {
-  const Smoke& s = smoke();
-  for (const std::string aim : kAims) {
-    const double coverage = s.coverage_of(s.cloud_after(route(aim)));
-    EXPECT_GE(coverage, kOracleShare * survey().leaf_counted[0]);
-    EXPECT_LE(coverage, survey().leaf_counted[0] + 0.01);
+/// No view twice, and places one after the other.
+void expect_in_order(const std::vector<Decision>& chosen) {
+  std::set<std::array<double, 4>> views;
+  std::set<std::array<double, 3>> left;  // places, once flown on from
+  Vec3 at_m = smoke().start.p_world_m;
+  for (const Decision& view : chosen) {
+    const Vec3& p = view.view.p_world_m;
+    EXPECT_TRUE(views.insert({p.x(), p.y(), p.z(), view.view.yaw_rad}).second);
+    if (p != at_m) {
+      EXPECT_FALSE(left.contains({p.x(), p.y(), p.z()}));
+      left.insert({at_m.x(), at_m.y(), at_m.z()});
+    }
+    at_m = p;
+    EXPECT_EQ(view.sampler, Sampler::oracle);
   }
 }
 
-TEST(Oracle, NeedsLeastOfWhatItCounts) {
+/// One test, since each of its own would search the routes again.
+TEST(Oracle, RoutesAreLegalFindTheirShareOfWhatAllViewsKeepAndNeedLeastOfWhatTheyCount) {
+  const Smoke& s = smoke();
   for (const std::string aim : kAims) {
+    SCOPED_TRACE(aim);
+    expect_radius_kept(route(aim));
+    expect_in_order(route(aim));
+    const double coverage = s.coverage_of(s.cloud_after(route(aim)));
+    EXPECT_GE(coverage, kOracleShare * survey().leaf_counted[0]);
+    EXPECT_LE(coverage, survey().leaf_counted[0] + 0.01);
     EXPECT_LE(route("oracle_views").size(), route(aim).size());
     EXPECT_LE(length_m(route("oracle_metres")), length_m(route(aim)) * (1.0 + kOracleSpread));
     EXPECT_LE(duration_s(route("oracle_seconds")), duration_s(route(aim)) * (1.0 + kOracleSpread));
   }
   EXPECT_LT(length_m(route("oracle_metres")), length_m(route("oracle_views")));
-}
-
-TEST(Oracle, TakesNoViewTwiceAndPlacesOneAfterTheOther) {
-  for (const std::string aim : kAims) {
-    std::set<std::array<double, 4>> views;
-    std::set<std::array<double, 3>> left;  // places, once flown on from
-    Vec3 at_m = smoke().start.p_world_m;
-    for (const Decision& view : route(aim)) {
-      const Vec3& p = view.view.p_world_m;
-      EXPECT_TRUE(views.insert({p.x(), p.y(), p.z(), view.view.yaw_rad}).second);
-      if (p != at_m) {
-        EXPECT_FALSE(left.contains({p.x(), p.y(), p.z()}));
-        left.insert({at_m.x(), at_m.y(), at_m.z()});
-      }
-      at_m = p;
-      EXPECT_EQ(view.sampler, Sampler::oracle);
-    }
-  }
 }
 
 /// The spread is that of three searches; each of them is for its share alone.
