@@ -224,7 +224,6 @@ void OpenSpace::follow(const OccupancyGrid& grid, const HeedStop& stop) {
       count = is_occupied ? count + 1 : count - 1;
     }
   }
-  constexpr std::size_t kBits = 64;
   passable_.assign((words.size() + kBits - 1) / kBits, 0);
   for (std::size_t v = 0; v < words.size(); ++v) {
     const bool is_free = state_of(words[v]) == VoxelState::free;
@@ -234,7 +233,7 @@ void OpenSpace::follow(const OccupancyGrid& grid, const HeedStop& stop) {
 }
 
 bool OpenSpace::is_passable(const OccupancyGrid& grid, VoxelIndex v) const {
-  if (grid.updates() == followed_) return (passable_[v / 64] >> (v % 64) & 1U) != 0;
+  if (grid.updates() == followed_) return (passable_[v / kBits] >> v % kBits & 1U) != 0;
   return near_occupied_[v] == 0 && grid.state(v) == VoxelState::free;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -104,10 +105,11 @@ class OpenSpace {
   std::vector<Key> ball_;                     // offsets at which an occupied voxel is too near
   ZeroedArray<std::uint32_t> near_occupied_;  // so many, and one more where nobody may fly
   ZeroedArray<std::uint8_t> was_occupied_;
-  // is_passable() of each voxel as long as the grid stays as it was followed: bits, which a cache
-  // holds
+  // is_passable() of each voxel, as long as the grid stays as it was followed: a bit each, so that
+  // a processor's cache holds them
+  static constexpr std::size_t kBits = 64;
   std::vector<std::uint64_t> passable_;
-  std::uint64_t followed_ = 0;  // OccupancyGrid::updates()
+  std::uint64_t followed_ = std::numeric_limits<std::uint64_t>::max();  // OccupancyGrid::updates()
 };
 
 }  // namespace gnbv

@@ -45,8 +45,9 @@ struct MeshReport {
 
 /// By samples of the surface and rays from them, by the rule of bench/score/surface_reference.hpp:
 /// about one sample per 20,000th of the area, at least one a face, and from 128 directions on where
-/// that makes many samples. Of more than 200,000 faces 50,000 stand for all. Nothing is hidden in
-/// what reaches farther than rays do. Of the sound faces; deterministic at any number of threads.
+/// that makes many samples. Of more than 200,000 faces the large ones are asked, and some 50,000
+/// that stand for the others. Nothing is hidden in what reaches farther than rays do. Of the sound
+/// faces; deterministic at any number of threads.
 OutsideView view_from_outside(const TriangleMesh& mesh, const MeshLint& lint, int threads);
 
 /// What the figures mean for a mission of this scenario; `report.findings` is not looked at.

@@ -52,29 +52,39 @@ void find_sides(const TriangleMesh& mesh, const RayScene& scene, const Reference
   }
 }
 
-/// Faces that stand for all: their samples, their area and how many they are.
+/// Of many faces the large ones, and of the others some, which stand for all of these.
 struct AskedFaces {
-  std::vector<SurfaceSample> samples;
-  double area_m2 = 0.0;
-  std::size_t count = 0;
-};
-
-/// All faces; of many some.
-AskedFaces asked_faces(const TriangleMesh& mesh) {
-  constexpr double kSamples = 20000.0;
-  constexpr std::size_t kMany = 200000;
-  constexpr std::size_t kSome = 50000;
-  const std::size_t one_in = mesh.faces.size() < kMany ? 1 : mesh.faces.size() / kSome;
-  const auto is_asked = [&](std::uint32_t face) { return mix_bits(face) % one_in == 0; };
-  AskedFaces asked{.samples = sample_about(mesh, kSamples)};
-  std::erase_if(asked.samples, [&](const SurfaceSample& s) { return !is_asked(s.face); });
-  for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-    if (!is_asked(face)) continue;
-    asked.area_m2 += face_area_m2(mesh, face);
-    ++asked.count;
+  explicit AskedFaces(const TriangleMesh& mesh)
+      : samples(sample_about(mesh, kSamples)), large_m2(surface_area_m2(mesh) / kSamples) {
+    constexpr std::size_t kMany = 200000;
+    constexpr std::size_t kSome = 50000;
+    if (mesh.faces.size() < kMany) return;
+    const std::size_t one_in = mesh.faces.size() / kSome;
+    double all_m2 = 0.0, asked_m2 = 0.0;  // of those that are not large
+    double all = 0.0, asked = 0.0;
+    std::vector<bool> is_asked(mesh.faces.size(), true);
+    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+      const double area_m2 = face_area_m2(mesh, face);
+      if (area_m2 > large_m2) continue;
+      is_asked[face] = mix_bits(face) % one_in == 0;
+      all_m2 += area_m2;
+      ++all;
+      if (!is_asked[face]) continue;
+      asked_m2 += area_m2;
+      ++asked;
+    }
+    std::erase_if(samples, [&](const SurfaceSample& s) { return !is_asked[s.face]; });
+    is_all = asked == all;
+    area_factor = asked_m2 > 0.0 ? all_m2 / asked_m2 : 1.0;
+    count_factor = asked > 0.0 ? all / asked : 1.0;
   }
-  return asked;
-}
+
+  static constexpr double kSamples = 20000.0;
+  std::vector<SurfaceSample> samples;
+  double large_m2;
+  bool is_all = true;
+  double area_factor = 1.0, count_factor = 1.0;  // of a face that is not large
+};
 
 }  // namespace
 
@@ -91,25 +101,33 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
     if (lint.is_sound[i]) is_two_sided.push_back(lint.is_two_sided[i]);
   }
   const RayScene scene(world);
-  const AskedFaces asked = asked_faces(mesh);
+  const AskedFaces asked(mesh);
   const std::vector<SurfaceSample>& samples = asked.samples;
   ReferenceConfig config;
   // more samples, each of less surface, get by with fewer directions
-  constexpr double kEnough = 20000.0;
   constexpr double kFewest = 128.0;
-  config.directions = static_cast<int>(std::clamp(
-      config.directions * kEnough / static_cast<double>(std::max<std::size_t>(samples.size(), 1)),
-      kFewest, static_cast<double>(config.directions)));
+  config.directions =
+      static_cast<int>(std::clamp(config.directions * AskedFaces::kSamples /
+                                      static_cast<double>(std::max<std::size_t>(samples.size(), 1)),
+                                  kFewest, static_cast<double>(config.directions)));
   const std::vector<std::uint8_t> sees_out =
       samples_seeing_out(world, scene, samples, config, threads);
 
+  struct Share {
+    double count, area_m2;
+  };
+  const auto stands_for = [&](std::uint32_t face) -> Share {
+    const double area_m2 = face_area_m2(mesh, face);
+    if (area_m2 > asked.large_m2) return {1.0, area_m2};
+    return {asked.count_factor, asked.area_factor * area_m2};
+  };
   std::vector<std::size_t> sample_count(mesh.faces.size(), 0);
   for (const SurfaceSample& s : samples) ++sample_count[s.face];
   std::vector<SurfaceSample> seeing;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::uint32_t face = samples[i].face;
     if (sees_out[i] == 0) {
-      view.hidden_area_m2 += face_area_m2(mesh, face) / static_cast<double>(sample_count[face]);
+      view.hidden_area_m2 += stands_for(face).area_m2 / static_cast<double>(sample_count[face]);
     } else if (!is_two_sided[face]) {
       seeing.push_back(samples[i]);
     }
@@ -121,17 +139,14 @@ OutsideView view_from_outside(const TriangleMesh& whole, const MeshLint& lint, i
   });
   std::vector<std::uint8_t> of_face(mesh.faces.size(), kNone);
   for (std::size_t i = 0; i < seeing.size(); ++i) of_face[seeing[i].face] |= sides[i];
-  for (std::size_t face = 0; face < of_face.size(); ++face) {
+  double from_behind = 0.0;
+  for (std::uint32_t face = 0; face < of_face.size(); ++face) {
     if (of_face[face] != kBack) continue;
-    ++view.from_behind.count;
-    view.from_behind.area_m2 += face_area_m2(mesh, face);
+    from_behind += stands_for(face).count;
+    view.from_behind.area_m2 += stands_for(face).area_m2;
   }
-  view.is_estimate = asked.count < mesh.faces.size();
-  if (!view.is_estimate || asked.area_m2 == 0.0) return view;
-  const double all_over_asked = view.area_m2 / asked.area_m2;
-  view.hidden_area_m2 *= all_over_asked;
-  view.from_behind.area_m2 *= all_over_asked;
-  view.from_behind.count = view.from_behind.count * mesh.faces.size() / asked.count;
+  view.from_behind.count = static_cast<std::size_t>(std::llround(from_behind));
+  view.is_estimate = !asked.is_all;
   return view;
 }
 

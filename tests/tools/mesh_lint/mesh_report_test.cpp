@@ -107,6 +107,10 @@ TEST(OutsideView, OfManyFacesSomeStandForAll) {
   EXPECT_NEAR(view.hidden_area_m2, 24.0, 1.0);
   EXPECT_NEAR(view.from_behind.area_m2, 96.0, 1.0);
   EXPECT_NEAR(static_cast<double>(view.from_behind.count), 12 << 14, 0.02 * (12 << 14));
+  // what is large beside them counts as itself
+  add_box(mesh, {10, 0, 0}, {40, 40, 40});
+  turn_faces(mesh, mesh.faces.size() - 12, mesh.faces.size());
+  EXPECT_NEAR(view_of(mesh).from_behind.area_m2, 96.0 + 9600.0, 2.0);
 }
 
 TEST(OutsideView, DoesNotDependOnTheNumberOfThreads) {
