@@ -79,6 +79,7 @@ struct FreeSpace {
 };
 
 /// FreeSpace voxel by voxel, for whoever asks about many: keeps count of what is too near to each.
+/// All questions are about the grid that was followed, which may have changed since.
 class OpenSpace {
  public:
   OpenSpace(const GridGeometry& geometry, const Box3& navigation_m, const NoFly& no_fly,

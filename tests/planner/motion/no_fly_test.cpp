@@ -184,6 +184,8 @@ TEST(OpenSpace, AnswersAlikeAsLongAsTheGridStaysAndAfterwards) {
   OccupancyGrid later = grid;
   later.apply({});
   OpenSpace space(grid.geometry(), kBox, {}, kRadius_m);
+  const OccupancyGrid unseen(OccupancyConfig{}, kBox);
+  EXPECT_FALSE(space.is_open(unseen, {0, 0, 1})) << "of a grid that it never followed";
   space.follow(grid);
   int open = 0, shut = 0;
   for (std::uint64_t i = 0; i < 20000; ++i) {
