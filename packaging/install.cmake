@@ -15,12 +15,11 @@ install(FILES LICENSE DESTINATION share/doc/gnbv RENAME copyright COMPONENT prog
 
 # man pages and completions, of docs/reference/commands.md; what others wrote of the program, where
 # Debian's packages can say so
-find_program(GNBV_PYTHON3 python3)
 install(CODE "
   set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
-  execute_process(COMMAND ${GNBV_PYTHON3} ${PROJECT_SOURCE_DIR}/tools/docs --install \${prefix}/share
+  execute_process(COMMAND python3 ${PROJECT_SOURCE_DIR}/tools/docs --install \${prefix}/share
     COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND ${GNBV_PYTHON3} ${PROJECT_SOURCE_DIR}/tools/licences
+  execute_process(COMMAND python3 ${PROJECT_SOURCE_DIR}/tools/licences
     -o \${prefix}/share/doc/gnbv/third-party.txt.gz --build ${PROJECT_BINARY_DIR}
     \"$<TARGET_FILE:gnbv>\" \"$<TARGET_FILE:gnbv_symmetry>\" \"$<TARGET_FILE:gnbv_poisson>\")
 " COMPONENT program)

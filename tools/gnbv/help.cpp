@@ -74,6 +74,15 @@ class FoldingFormatter : public CLI::Formatter {
     return entry(make_option_name(option, is_positional) + make_option_opts(option),
                  make_option_desc(option));
   }
+  /// A default as "=x", which CLI11 writes as " [x] " from 2.4 on.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string opts = CLI::Formatter::make_option_opts(option);
+    const std::string& value = option->get_default_str();
+    const std::string newer = " [" + value + "] ";
+    const std::size_t at = value.empty() ? std::string::npos : opts.find(newer);
+    if (at != std::string::npos) opts.replace(at, newer.size(), "=" + value);
+    return opts;
+  }
   std::string make_subcommand(const CLI::App* command) const override {
     return entry(command->get_display_name(true), command->get_description());
   }

@@ -45,7 +45,7 @@ inline std::vector<Texts> all_texts(const TextTable& table) {
   return all;
 }
 
-inline const TableCell& cell_of(const TextTable& table, std::size_t row, const std::string& key) {
+inline const TableCell& cell_of(const TextTable& table, std::size_t row, std::string_view key) {
   const auto column = std::find_if(table.columns.begin(), table.columns.end(),
                                    [&](const TableColumn& c) { return c.key == key; });
   return table.rows.at(row).at(static_cast<std::size_t>(column - table.columns.begin()));
