@@ -210,7 +210,7 @@ TEST(OpenSpace, AsksOfALineTheVoxelsThatItsFloat32EndsLeadThrough) {
     const auto pick = [&](std::uint64_t k, int n) {
       return std::floor(n * uniform01({7, Stream::bench, i, k}));
     };
-    const Vec3 a(0.2 * pick(0, 10) - 0.9, 0.2 * pick(1, 10) - 0.9, 0.2 * pick(2, 5) + 1.1);
+    const Vec3 a(0.2 * pick(0, 20) - 1.9, 0.2 * pick(1, 20) - 1.9, 0.2 * pick(2, 5) + 1.1);
     Vec3 way(2 * pick(3, 2) - 1, 2 * pick(4, 2) - 1, 2 * pick(5, 2) - 1);
     way[static_cast<int>(pick(6, 3))] = 0.0;
     const std::vector<Vec3f> ends = {a.cast<float>(), (a + way).cast<float>()};
