@@ -6,7 +6,7 @@
 /// GNBV_EMBED(name, FILE) defines `std::string_view name()`: the contents of FILE (a string
 /// literal) as part of the program. The assembler puts the file between two labels. CMake needs
 /// FILE in the OBJECT_DEPENDS of the source that embeds it, since no compiler sees the dependence.
-/// The labels are hidden: else Arm's linker takes both addresses of one entry of a table, the same.
+/// The labels are hidden, or the linker for Arm gives both one address, and the file no bytes.
 #define GNBV_EMBED(name, file)                                                                    \
   asm(".pushsection .rodata\ngnbv_embedded_" #name "_begin:\n.incbin \"" file                     \
       "\"\ngnbv_embedded_" #name "_end:\n.popsection\n");                                         \
