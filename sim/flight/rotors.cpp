@@ -1,7 +1,7 @@
 #include "sim/flight/rotors.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -254,10 +254,11 @@ std::string allocation_fault(const AirframeParameters& airframe) {
   if (airframe.moment_per_thrust_m == 0.0) {
     return "moment_per_thrust_m is 0: nothing turns the vehicle about its vertical";
   }
+  // the singular values' squares, ascending; an SVD itself takes the compiler 12 s
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> squares(effect * effect.transpose());
   constexpr double kSingular = 1e-3;  // of rows that reach up to 1
-  const Eigen::JacobiSVD<Effect> svd(effect, Eigen::ComputeFullU);
-  if (svd.singularValues()[3] < kSingular) {
-    const Eigen::Vector4d inseparable = svd.matrixU().col(3);
+  if (squares.eigenvalues()[0] < kSingular * kSingular) {
+    const Eigen::Vector4d inseparable = squares.eigenvectors().col(0);
     std::string axes;
     for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
       if (std::abs(inseparable[static_cast<Eigen::Index>(axis)]) < 0.1) continue;
