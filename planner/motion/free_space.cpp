@@ -70,6 +70,16 @@ bool is_approached(const Box3& box_m, const Vec3& from_m, const Vec3& to_m, doub
          nearest_m2 < box_m.squaredExteriorDistance(from_m) - kRounding_m2;
 }
 
+/// From the point to the nearest occupied cube, at most `most_m`.
+double clearance_m(const OccupancyGrid& grid, const Vec3& p_m, double most_m) {
+  double nearest_m2 = most_m * most_m;
+  any_occupied_near(grid, p_m, p_m, most_m, [&](const Box3& cube) {
+    nearest_m2 = std::min(nearest_m2, cube.squaredExteriorDistance(p_m));
+    return false;
+  });
+  return std::sqrt(nearest_m2);
+}
+
 /// The rule of is_line_free(), asked about voxels in their order along the line.
 class FreeFromVehicle {
  public:
@@ -176,8 +186,14 @@ std::optional<Rejection> FreeSpace::rejection_at(const Vec3& p_world_m,
 }
 
 bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const {
-  return no_fly.allows_leg(from_world_m, to_world_m) &&
-         is_path_clear(grid, from_world_m, to_world_m, leg_radius_m);
+  if (!no_fly.allows_leg(from_world_m, to_world_m)) return false;
+  if (is_path_clear(grid, from_world_m, to_world_m, leg_radius_m)) return true;
+  constexpr double kLeastShare = 0.5;
+  constexpr double kBeside_m = 0.05;  // that it flies beside the places planned
+  const double here_m = clearance_m(grid, from_world_m, leg_radius_m);
+  return here_m < leg_radius_m &&
+         is_path_clear(grid, from_world_m, to_world_m,
+                       std::max(here_m - kBeside_m, kLeastShare * leg_radius_m));
 }
 
 bool FreeSpace::is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const {

@@ -72,7 +72,9 @@ struct FreeSpace {
   bool contains(const Vec3& p_world_m) const;
   /// What forbids the point, if anything does, to a vehicle that is at `own_world_m`.
   std::optional<Rejection> rejection_at(const Vec3& p_world_m, const Vec3& own_world_m) const;
-  /// Whether the leg keeps away from what is known to be occupied, and from all boxes.
+  /// Whether the leg keeps away from what is known to be occupied, and from all boxes. Where the
+  /// vehicle has less room than its radius, such as under a wing that it saw late, the leg may have
+  /// as little, but at least half the radius.
   bool is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const;
   /// The same, and it leads through what is known to be free alone.
   bool is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const;

@@ -140,10 +140,10 @@ void Roadmap::link_others(const HeedStop& stop) {
   link_to_near(here());
 }
 
-void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m,
+void Roadmap::follow(const FreeSpace& space, const OpenSpace& open, const Vec3& here_world_m,
                      const HeedStop& stop) {
-  grid_ = &grid;
-  space_ = &space;
+  space_.emplace(space);
+  open_ = &open;
   ++follows_;
   rows_.erase(here());
   lines_.forget();
@@ -152,7 +152,7 @@ void Roadmap::follow(const OccupancyGrid& grid, const OpenSpace& space, const Ve
   is_open_.resize(size(), 0);
   opened_.resize(size(), 0);
   for (Node node = 1; node < size(); ++node) {
-    const bool is_open = space.is_open(grid, geometry_.key_of(p_world_m_[node]));
+    const bool is_open = open.is_open(space.grid, geometry_.key_of(p_world_m_[node]));
     if (is_open && is_open_[node] == 0) opened_[node] = follows_;
     is_open_[node] = is_open ? 1 : 0;
   }
@@ -234,8 +234,8 @@ const Roadmap::Row& Roadmap::row(Node from, const HeedStop& stop) {
   if (at == rows_.end()) {
     Row made{.made = follows_, .followed = follows_};
     made.ways.grow(size());
-    if (lines_of_ != grid_->updates()) lines_.forget();
-    lines_of_ = grid_->updates();
+    if (lines_of_ != space_->grid.updates()) lines_.forget();
+    lines_of_ = space_->grid.updates();
     LazyGraph graph{*this, made.ways, from};
     find_ways(graph, from, made.ways, stop);
     at = rows_.emplace(from, std::move(made)).first;

@@ -23,10 +23,11 @@ class Roadmap {
   /// One more node, off the lattice: the middle of the voxel at the point.
   Node add(const Vec3& p_world_m);
 
-  /// Finds which nodes are open now and can be reached from `here_world_m`, and over which legs.
-  /// Keeps references to grid and space. Rows are kept for some calls. They learn of nodes that
-  /// have opened, but neither of shorter ways nor of what has closed.
-  void follow(const OccupancyGrid& grid, const OpenSpace& space, const Vec3& here_world_m,
+  /// Finds which nodes are open now and can be reached from `here_world_m`, and over which legs:
+  /// those from there are asked of `space` itself, all others of `open`. Keeps references to `open`
+  /// and to what `space` refers to. Rows are kept for some calls. They learn of nodes that have
+  /// opened, but neither of shorter ways nor of what has closed.
+  void follow(const FreeSpace& space, const OpenSpace& open, const Vec3& here_world_m,
               const HeedStop& stop = {});
 
   std::size_t size() const { return p_world_m_.size(); }
@@ -81,8 +82,11 @@ class Roadmap {
   void link(Node a, Node b);
   void link_lattice(const HeedStop& stop);
   void link_others(const HeedStop& stop);
+  /// The vehicle may be nearer to something than any node is.
   bool is_line_open(Node from, Node to) const {
-    return space_->is_line_open(*grid_, p_world_m_[from], p_world_m_[to]);
+    const Vec3& to_m = p_world_m_[to];
+    return from == here() ? space_->is_leg_free(p_world_m_[from], to_m)
+                          : open_->is_line_open(space_->grid, p_world_m_[from], to_m);
   }
   float leg_m(Node a, Node b) const {
     return static_cast<float>((p_world_m_[a] - p_world_m_[b]).norm());
@@ -99,8 +103,8 @@ class Roadmap {
   std::vector<std::uint32_t> opened_;    // in which follow() each did, last
   std::vector<std::vector<Node>> legs_;  // from each node
   std::vector<Node> reachable_;
-  const OccupancyGrid* grid_ = nullptr;  // of the last follow()
-  const OpenSpace* space_ = nullptr;
+  std::optional<FreeSpace> space_;  // of the last follow()
+  const OpenSpace* open_ = nullptr;
   std::map<Node, Row> rows_;
   KnownLines lines_;
   std::uint64_t lines_of_ = 0;  // OccupancyGrid::updates()

@@ -36,8 +36,11 @@ struct Step {
   TourScene scene() const { return {config, state.cells, state.patches}; }
   /// What a unit of way has to bring, in small voxels.
   double price() const { return config.price * expected_surface(state.cells).voxels_a_metre(); }
+  FreeSpace free_space() const {
+    return {belief.grid, model.navigation_m, model.no_fly, model.validity.collision_radius_m};
+  }
   void follow_roadmap() const {
-    state.roadmap.follow(belief.grid, state.space, current.p_world_m, stop);
+    state.roadmap.follow(free_space(), state.space, current.p_world_m, stop);
   }
 };
 
@@ -220,9 +223,7 @@ TourPlan replan(const Step& step, bool may_explore) {
 /// Straight, or as the roadmap knows it; blocked where some leg is not free after all.
 FoundPath path_to(const Step& step, const ViewChecker& checker, const TourView& view) {
   if (const auto rejected = checker.rejection_there(view.pose)) return {rejected};
-  const PlannerModel& model = step.model;
-  const FreeSpace space{step.belief.grid, model.navigation_m, model.no_fly,
-                        model.validity.collision_radius_m};
+  const FreeSpace space = step.free_space();
   Roadmap& roadmap = step.state.roadmap;
   const Vec3& to_m = roadmap.p_world_m(view.node);
   Vec3 from_m = step.current.p_world_m;

@@ -138,6 +138,28 @@ TEST(PathCheck, WhatIsTooCloseAlreadyMayBeLeftButNotApproached) {
   EXPECT_FALSE(is_path_clear(grid, here, here + Vec3(2, -0.5, 0), 1.5));
 }
 
+/// Under a plate that it saw late: as near as it is, but not nearer, and half the radius at least.
+TEST(FreeSpaceLeg, KeepsTheRoomThatItsStartHas) {
+  std::vector<Vec3> plate_m;
+  for (double x_m = -3.9; x_m < 4.0; x_m += 0.2) {
+    for (double y_m = -3.9; y_m < 4.0; y_m += 0.2) plate_m.emplace_back(x_m, y_m, 2.1);
+  }
+  const OccupancyGrid grid = free_but_at(plate_m);
+  const FreeSpace space{
+      .grid = grid, .navigation_m = kNavigation, .no_fly = kNoBoxes, .radius_m = 1.5};
+  const auto leg = [&](double room_m, double end_room_m) {
+    return space.is_leg_clear(Vec3(0, 0, 2.0 - room_m), Vec3(3, 0, 2.0 - end_room_m));
+  };
+  EXPECT_TRUE(leg(1.2, 1.2));
+  EXPECT_TRUE(leg(1.2, 1.16)) << "the vehicle flies beside the places planned";
+  EXPECT_FALSE(leg(1.2, 1.1));
+  EXPECT_TRUE(leg(0.8, 0.8));
+  EXPECT_FALSE(leg(0.7, 0.7)) << "less than half the radius";
+  EXPECT_FALSE(leg(1.6, 1.4)) << "from where it has its room";
+  EXPECT_FALSE(is_path_clear(grid, Vec3(0, 0, 0.8), Vec3(3, 0, 0.8), 1.5))
+      << "no other leg does it";
+}
+
 std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,
                                    std::span<const ViewPose> recent, const ViewPose& current,
                                    const ViewPose& view) {

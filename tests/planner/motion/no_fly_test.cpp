@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "planner/map/ray_walk.hpp"
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
 #include "sim/core/rng.hpp"
@@ -198,6 +199,32 @@ TEST(OpenSpace, AnswersAlikeAsLongAsTheGridStaysAndAfterwards) {
   }
   EXPECT_GT(open, 1000);
   EXPECT_GT(shut, 1000);
+}
+
+/// Its ends are float32, as OctoMap's: where a line runs along the edges of voxels, their last bits
+/// decide which voxels it visits. g++ 12 forgot that rounding (decision 127).
+TEST(OpenSpace, AsksOfALineTheVoxelsThatItsFloat32EndsLeadThrough) {
+  constexpr double kOfOneVoxel_m = 0.05;
+  const OccupancyGrid unknown(OccupancyConfig{}, kBox);
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const auto pick = [&](std::uint64_t k, int n) {
+      return std::floor(n * uniform01({7, Stream::bench, i, k}));
+    };
+    const Vec3 a(0.2 * pick(0, 20) - 1.9, 0.2 * pick(1, 20) - 1.9, 0.2 * pick(2, 5) + 1.1);
+    Vec3 way(2 * pick(3, 2) - 1, 2 * pick(4, 2) - 1, 2 * pick(5, 2) - 1);
+    way[static_cast<int>(pick(6, 3))] = 0.0;
+    const std::vector<Vec3f> ends = {a.cast<float>(), (a + way).cast<float>()};
+    std::vector<VoxelIndex> voxels = {voxel_at(unknown, a + way)};
+    walk_ray(unknown.geometry(), ends[0], ends[1], [&](const Key& key) {
+      voxels.push_back(unknown.geometry().index_of(key));
+      return true;
+    });
+    OccupancyGrid grid = unknown;
+    clear(grid, voxels);
+    OpenSpace space(grid.geometry(), kBox, {}, kOfOneVoxel_m);
+    space.follow(grid);
+    EXPECT_TRUE(space.is_line_open(grid, a, a + way)) << a.transpose() << " + " << way.transpose();
+  }
 }
 
 }  // namespace

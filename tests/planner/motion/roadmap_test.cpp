@@ -14,14 +14,20 @@ namespace gnbv {
 namespace {
 
 const Box3 kBox(Vec3(-6, -6, 0), Vec3(6, 6, 4));
+const NoFly kNoBoxes;
+constexpr double kRadius_m = 0.5;
 
 struct World {
   explicit World(OccupancyGrid occupancy)
       : grid(std::move(occupancy)),
-        space(grid.geometry(), kBox, {}, 0.5),
+        space(grid.geometry(), kBox, {}, kRadius_m),
         roadmap(grid.geometry(), kBox, 1.0) {
     space.follow(grid);
-    roadmap.follow(grid, space, Vec3(-5, -5, 1));
+    follow(Vec3(-5, -5, 1));
+  }
+  FreeSpace free_space() const { return {grid, kBox, kNoBoxes, kRadius_m}; }
+  void follow(const Vec3& here_m, const HeedStop& stop = {}) {
+    roadmap.follow(free_space(), space, here_m, stop);
   }
   OccupancyGrid grid;
   OpenSpace space;
@@ -68,7 +74,7 @@ TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
   fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(4, 0.2, 4)));  // leaves a gap at large x
   World world(std::move(grid));
   const auto behind = world.roadmap.add(Vec3(-5, 5, 1));
-  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  world.follow(Vec3(-5, -5, 1));
   ASSERT_TRUE(is_reachable(world.roadmap, behind));
   const double length_m = checked_length_m(world, Roadmap::here(), Vec3(-5, -5, 1), behind);
   const double least_m = 2.0 * std::hypot(9.0, 5.0);  // by the wall's end
@@ -104,7 +110,7 @@ TEST(Roadmap, AWayThatIsKeptLearnsOfPlacesThatOpen) {
   ASSERT_TRUE(std::isinf(world.roadmap.row_m(from)[within]));
   world.grid = free_grid(kBox);
   world.space.follow(world.grid);
-  world.roadmap.follow(world.grid, world.space, Vec3(-5, -5, 1));
+  world.follow(Vec3(-5, -5, 1));
   const double straight_m =
       (world.roadmap.p_world_m(from) - world.roadmap.p_world_m(within)).norm();
   const double length_m = checked_length_m(world, from, world.roadmap.p_world_m(from), within);
@@ -133,8 +139,26 @@ TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
   const Vec3 here_m(-4.9, -4.9, 1.1);
   clear(grid, voxels_where(grid, [&](const Vec3& p_m) { return (p_m - here_m).norm() > 0.1; }));
   World world(std::move(grid));
-  world.roadmap.follow(world.grid, world.space, here_m);
+  world.follow(here_m);
   EXPECT_TRUE(is_reachable(world.roadmap, 1));
+}
+
+/// Under a wing that it saw late, the vehicle is nearer to all of it than its radius: wherever it
+/// goes, it comes as near to some of it.
+TEST(Roadmap, LeadsOutFromUnderAWing) {
+  OccupancyGrid grid = free_grid(kBox);
+  fill(grid, Box3(Vec3(-3, -3, 1.4), Vec3(3, 3, 2)));
+  World world(std::move(grid));
+  const Vec3 here_m(0.13, -0.21, 0.97);
+  ASSERT_FALSE(is_sphere_clear(world.grid, here_m, kRadius_m));
+  world.follow(here_m);
+  const auto beside = world.roadmap.nearest(Vec3(-5, -5, 3));
+  ASSERT_TRUE(is_reachable(world.roadmap, beside));
+  for (const Roadmap::Node node : world.roadmap.reachable()) {
+    std::vector<Vec3> way_m = world.roadmap.via_world_m(Roadmap::here(), node);
+    way_m.push_back(world.roadmap.p_world_m(node));
+    ASSERT_TRUE(world.free_space().is_leg_free(here_m, way_m.front())) << node;
+  }
 }
 
 /// All open nodes lie on the other side of an edge of the cubes that nodes are sorted into, which
@@ -152,7 +176,7 @@ TEST(Roadmap, ANodeBesideTheLatticeIsLinkedToAllAboutIt) {
       const Roadmap::Node added = world.roadmap.add(p_world_m);
       Vec3 here_m(0.0, 0.0, 1.0);
       here_m[axis] = 5.0 * side;
-      world.roadmap.follow(world.grid, world.space, here_m);
+      world.follow(here_m);
       EXPECT_TRUE(is_reachable(world.roadmap, added)) << axis << " " << side;
     }
   }
@@ -171,7 +195,7 @@ TEST(Roadmap, AsksOftenWhetherToStopAndKeepsNothingHalfDone) {
   const auto plan = [&] {
     asked = 0;
     world.roadmap.forget_ways();
-    world.roadmap.follow(world.grid, world.space, here_m, stop);
+    world.follow(here_m, stop);
     world.roadmap.row_m(5, stop);
   };
   plan();
@@ -180,7 +204,7 @@ TEST(Roadmap, AsksOftenWhetherToStopAndKeepsNothingHalfDone) {
   for (const int at : {1, all / 4, all / 2, 3 * all / 4, all - 1}) {
     stop_at = at;
     EXPECT_THROW(plan(), std::runtime_error);
-    world.roadmap.follow(world.grid, world.space, here_m);
+    world.follow(here_m);
     const std::span<const float> row_m = world.roadmap.row_m(5);
     EXPECT_TRUE(std::equal(row_m.begin(), row_m.end(), whole_m.begin(), whole_m.end())) << at;
   }
