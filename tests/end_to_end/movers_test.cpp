@@ -10,17 +10,16 @@
 namespace gnbv {
 namespace {
 
-/// A pillar that goes up and down before the south side, where the mission begins.
-std::vector<std::string> pillar(bool is_known, const std::string& utility) {
-  return {
-      "obstacles=[{box_m: {min: [-3.8, -2.6, 0], max: [-3.4, -2.2, 3]}, motion: {waypoints: "
-      "[{offset_m: [7.2, 0, 0]}], speed_m_s: 0.7, known: " +
-          std::string(is_known ? "true" : "false") + "}}]",
-      "start.position_m=[0, -3.2, 1.2]",
-      "start.jitter_m=[0, 0, 0]",
-      "planner.profiling.method=none",
-      "planner.utility.name=" + utility,
-      "planner.termination.max_iterations=10"};
+/// A pillar that goes up and down before the south side, where the mission begins, along y_m.
+std::vector<std::string> pillar(bool is_known, const std::string& utility, double y_m = -2.4) {
+  return {fmt::format("obstacles=[{{box_m: {{min: [-3.8, {}, 0], max: [-3.4, {}, 3]}}, motion: "
+                      "{{waypoints: [{{offset_m: [7.2, 0, 0]}}], speed_m_s: 0.7, known: {}}}}}]",
+                      y_m - 0.2, y_m + 0.2, is_known),
+          "start.position_m=[0, -3.2, 1.2]",
+          "start.jitter_m=[0, 0, 0]",
+          "planner.profiling.method=none",
+          "planner.utility.name=" + utility,
+          "planner.termination.max_iterations=10"};
 }
 
 /// Nearest that any recorded pose came to the pillar.
@@ -40,6 +39,22 @@ TEST(MovingObstacle, OneWhoseMotionIsKnownIsWaitedForSoThatNobodyComesNearIt) {
     EXPECT_GE(nearest_m(flown), 0.95 * flown.scenario.planner.validity.collision_radius_m)
         << utility;
     EXPECT_GE(flown.result.views.size(), 8U);
+  }
+}
+
+/// It goes by the start itself: who waits there for a way is hit, who gives up there stands still.
+TEST(MovingObstacle, OneThatComesToWhereTheVehicleWaitsIsMadeWayFor) {
+  for (const std::string utility : {"proposed", "tour"}) {
+    const Flown flown(smoke(pillar(true, utility, -2.8)));
+    EXPECT_EQ(flown.result.termination, Termination::max_iterations) << utility;
+    EXPECT_GT(flown.result.legs_timed_out, 0) << "no leg was given up";
+    EXPECT_GE(nearest_m(flown), 0.95 * flown.scenario.planner.validity.collision_radius_m)
+        << utility;
+    double before_s = -1.0;
+    for (const ViewRecord& view : flown.result.views) {
+      EXPECT_GT(view.time_s, before_s) << utility << " view " << view.iteration;
+      before_s = view.time_s;
+    }
   }
 }
 

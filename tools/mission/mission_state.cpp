@@ -179,25 +179,90 @@ std::optional<Termination> over_after(const Mission& m, LegEnd end) {
 
 namespace {
 
-/// The shortest wait after which the leg, and a rest at its end, keep clear of bodies whose motion
-/// is known, as does the wait itself.
-std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
-                                        const ViewPose& goal, double speed_m_s) {
-  constexpr double kStep_s = 0.2;
-  constexpr double kLongest_s = 60.0;
+/// How often along a leg it is asked where bodies will be.
+constexpr double kStep_s = 0.2;
+
+/// Whether the leg, begun after a wait, and a rest at its end keep clear of bodies whose motion is
+/// known.
+bool is_leg_clear_of_movers(const Mission& m, const ViewPose& from, const ViewPose& goal,
+                            double speed_m_s, double wait_s, double rest_s) {
   const GuidanceConfig& guidance = m.scenario.guidance;
   const double leg_s =
       std::min(leg_duration_s(from, goal, speed_m_s, guidance, m.scenario.vehicle), kLongestLeg_s);
-  const auto is_clear_after = [&](double wait_s) {
-    for (double at_s = 0.0; at_s <= leg_s + kArrival_s; at_s += kStep_s) {
-      const Vec3 p_m = place_on_leg_m(from, goal, at_s, speed_m_s, guidance, m.scenario.vehicle);
-      if (!is_clear_of_movers(m, p_m, wait_s + at_s)) return false;
-    }
-    return true;
-  };
+  for (double at_s = 0.0; at_s <= leg_s + rest_s; at_s += kStep_s) {
+    const Vec3 p_m = place_on_leg_m(from, goal, at_s, speed_m_s, guidance, m.scenario.vehicle);
+    if (!is_clear_of_movers(m, p_m, wait_s + at_s)) return false;
+  }
+  return true;
+}
+
+/// The shortest wait after which the leg is clear, as is the wait itself.
+std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
+                                        const ViewPose& goal, double speed_m_s) {
+  constexpr double kLongest_s = 60.0;
   for (double wait_s = 0.0; wait_s <= kLongest_s; wait_s += kStep_s) {
-    if (is_clear_after(wait_s)) return wait_s;
+    if (is_leg_clear_of_movers(m, from, goal, speed_m_s, wait_s, kArrival_s)) return wait_s;
     if (!is_clear_of_movers(m, from.p_world_m, wait_s)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// Out of the way of a body that comes to where the vehicle is: one of the nearest places about it
+/// that may be flown to, through unseen space where there is no other.
+std::optional<ViewPose> place_beside(const Mission& m, const ViewPose& here, double speed_m_s) {
+  constexpr double kRest_s = 5.0;
+  FreeSpace space = free_space(m);
+  for (const bool allow_unknown : {false, true}) {
+    space.allow_unknown = allow_unknown;
+    for (const double radii : {0.5, 1.0, 2.0, 4.0}) {
+      std::optional<ViewPose> found;
+      for_each_key(keys_about({0, 0, 0}), [&](const Key& way) {
+        ViewPose beside = here;
+        beside.p_world_m +=
+            radii * space.radius_m * Vec3(way[0], way[1], way[2]).stableNormalized();
+        if (!found && space.contains(beside.p_world_m) &&
+            space.is_leg_free(here.p_world_m, beside.p_world_m) &&
+            is_leg_clear_of_movers(m, here, beside, speed_m_s, 0.0, kRest_s)) {
+          found = beside;
+        }
+      });
+      if (found) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Termination> stay(Mission& m, const ViewPose& here, double duration_s,
+                                const std::function<void(const Flight&)>& on_tick) {
+  const std::vector<Reference> still(
+      static_cast<std::size_t>(std::lround(duration_s / kReference_s)),
+      {.p_world_m = here.p_world_m, .yaw_rad = here.yaw_rad});
+  std::size_t at = 0;
+  return over_after(
+      m, fly_path(*m.flight, still, at, 1, m.scenario.vehicle, [&](const Flight& flight) {
+        keep_track(m);
+        on_tick(flight);
+        return goes_on(m);
+      }));
+}
+
+std::optional<Termination> fly_straight(Mission& m, const ViewPose& from, const ViewPose& goal,
+                                        double speed_m_s,
+                                        const std::function<void(const Flight&)>& on_tick) {
+  const LegEnd end = fly_leg(*m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
+                             [&](const Flight& flight) {
+                               keep_track(m);
+                               m.out.path_error.add(distance_to_segment_m(
+                                   m.last_p_world_m, from.p_world_m, goal.p_world_m));
+                               on_tick(flight);
+                               return goes_on(m);
+                             });
+  if (const auto over = over_after(m, end)) return over;
+  m.current = goal;
+  if (end == LegEnd::timeout) {
+    ++m.out.legs_timed_out;
+    const Isometry T = m.flight->estimate().T_world_body;
+    m.current = {T.translation(), yaw_of(T), goal.gimbal_pitch_rad};
   }
   return std::nullopt;
 }
@@ -207,43 +272,20 @@ std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick) {
   const Isometry T_here = m.flight->estimate().T_world_body;
-  const Vec3 from_m = T_here.translation();
-  const ViewPose here = {from_m, yaw_of(T_here), goal.gimbal_pitch_rad};
+  const ViewPose here = {T_here.translation(), yaw_of(T_here), goal.gimbal_pitch_rad};
   const auto wait_s = wait_for_movers_s(m, here, goal, speed_m_s);
-  if (!wait_s) {
-    ++m.out.legs_timed_out;
-    m.current = here;
-    return std::nullopt;
+  if (wait_s) {
+    if (*wait_s > 0.0) {
+      if (const auto over = stay(m, here, *wait_s, on_tick)) return over;
+    }
+    return fly_straight(m, here, goal, speed_m_s, on_tick);
   }
-  if (*wait_s > 0.0) {
-    const std::vector<Reference> still(
-        static_cast<std::size_t>(std::lround(*wait_s / kReference_s)),
-        {.p_world_m = from_m, .yaw_rad = here.yaw_rad});
-    std::size_t at = 0;
-    const LegEnd held =
-        fly_path(*m.flight, still, at, 1, m.scenario.vehicle, [&](const Flight& flight) {
-          keep_track(m);
-          on_tick(flight);
-          return goes_on(m);
-        });
-    if (const auto over = over_after(m, held)) return over;
-  }
-  const LegEnd end = fly_leg(
-      *m.flight, goal, speed_m_s, m.scenario.guidance, m.scenario.vehicle,
-      [&](const Flight& flight) {
-        keep_track(m);
-        m.out.path_error.add(distance_to_segment_m(m.last_p_world_m, from_m, goal.p_world_m));
-        on_tick(flight);
-        return goes_on(m);
-      });
-  if (const auto over = over_after(m, end)) return over;
-  m.current = goal;
-  if (end == LegEnd::timeout) {
-    ++m.out.legs_timed_out;
-    const Isometry T = m.flight->estimate().T_world_body;
-    m.current = {T.translation(), yaw_of(T), goal.gimbal_pitch_rad};
-  }
-  return std::nullopt;
+  ++m.out.legs_timed_out;
+  m.current = here;
+  constexpr double kCaught_s = 1.0;  // that pass where there is no way out
+  const auto beside = place_beside(m, here, speed_m_s);
+  return beside ? fly_straight(m, here, *beside, speed_m_s, on_tick)
+                : stay(m, here, kCaught_s, on_tick);
 }
 
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
