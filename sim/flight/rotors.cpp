@@ -254,7 +254,7 @@ std::string allocation_fault(const AirframeParameters& airframe) {
   if (airframe.moment_per_thrust_m == 0.0) {
     return "moment_per_thrust_m is 0: nothing turns the vehicle about its vertical";
   }
-  // the singular values' squares, ascending; an SVD itself takes the compiler 12 s
+  // the singular values' squares, ascending; an SVD would take the compiler 13 s more
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> squares(effect * effect.transpose());
   constexpr double kSingular = 1e-3;  // of rows that reach up to 1
   if (squares.eigenvalues()[0] < kSingular * kSingular) {

@@ -208,9 +208,10 @@ std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
 }
 
 /// Out of the way of a body that comes to where the vehicle is: one of the nearest places about it
-/// that may be flown to, through unseen space where there is no other.
+/// that may be flown to, through unseen space where there is no other. Nothing where no body comes.
 std::optional<ViewPose> place_beside(const Mission& m, const ViewPose& here, double speed_m_s) {
   constexpr double kRest_s = 5.0;
+  if (is_leg_clear_of_movers(m, here, here, speed_m_s, 0.0, kRest_s)) return std::nullopt;
   FreeSpace space = free_space(m);
   for (const bool allow_unknown : {false, true}) {
     space.allow_unknown = allow_unknown;
@@ -282,10 +283,10 @@ std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double spee
   }
   ++m.out.legs_timed_out;
   m.current = here;
-  constexpr double kCaught_s = 1.0;  // that pass where there is no way out
+  constexpr double kStay_s = 1.0;  // before it asks again
   const auto beside = place_beside(m, here, speed_m_s);
   return beside ? fly_straight(m, here, *beside, speed_m_s, on_tick)
-                : stay(m, here, kCaught_s, on_tick);
+                : stay(m, here, kStay_s, on_tick);
 }
 
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal) {
