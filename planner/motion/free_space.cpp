@@ -188,6 +188,7 @@ std::optional<Rejection> FreeSpace::rejection_at(const Vec3& p_world_m,
 bool FreeSpace::is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const {
   if (!no_fly.allows_leg(from_world_m, to_world_m)) return false;
   if (is_path_clear(grid, from_world_m, to_world_m, leg_radius_m)) return true;
+  if (!leg_keeps_start_room) return false;
   constexpr double kLeastShare = 0.5;
   constexpr double kBeside_m = 0.05;  // that it flies beside the places planned
   const double here_m = clearance_m(grid, from_world_m, leg_radius_m);

@@ -66,15 +66,16 @@ struct FreeSpace {
   double radius_m = 0.0;           // of the vehicle's sphere
   bool allow_unknown = false;      // unknown voxels count as free
   double leg_radius_m = radius_m;  // of the sphere on a leg
+  /// Where the start of a leg has less room than that, such as under a wing that was seen late, the
+  /// leg may have as little, less 5 cm, but at least half the radius. The paper has no such rule.
+  bool leg_keeps_start_room = false;
 
   /// Whether the navigation box holds the point: a lattice walked in steps ends on the box's faces
   /// but for rounding.
   bool contains(const Vec3& p_world_m) const;
   /// What forbids the point, if anything does, to a vehicle that is at `own_world_m`.
   std::optional<Rejection> rejection_at(const Vec3& p_world_m, const Vec3& own_world_m) const;
-  /// Whether the leg keeps away from what is known to be occupied, and from all boxes. Where the
-  /// vehicle has less room than its radius, such as under a wing that it saw late, the leg may have
-  /// as little, but at least half the radius.
+  /// Whether the leg keeps away from what is known to be occupied, and from all boxes.
   bool is_leg_clear(const Vec3& from_world_m, const Vec3& to_world_m) const;
   /// The same, and it leads through what is known to be free alone.
   bool is_leg_free(const Vec3& from_world_m, const Vec3& to_world_m) const;

@@ -37,7 +37,11 @@ struct Step {
   /// What a unit of way has to bring, in small voxels.
   double price() const { return config.price * expected_surface(state.cells).voxels_a_metre(); }
   FreeSpace free_space() const {
-    return {belief.grid, model.navigation_m, model.no_fly, model.validity.collision_radius_m};
+    return {.grid = belief.grid,
+            .navigation_m = model.navigation_m,
+            .no_fly = model.no_fly,
+            .radius_m = model.validity.collision_radius_m,
+            .leg_keeps_start_room = true};
   }
   void follow_roadmap() const {
     state.roadmap.follow(free_space(), state.space, current.p_world_m, stop);

@@ -132,8 +132,11 @@ void keep_track(Mission& m) {
 }
 
 FreeSpace free_space(const Mission& m) {
-  return {m.out.belief.grid, m.model.navigation_m, m.model.no_fly,
-          m.model.validity.collision_radius_m};
+  return {.grid = m.out.belief.grid,
+          .navigation_m = m.model.navigation_m,
+          .no_fly = m.model.no_fly,
+          .radius_m = m.model.validity.collision_radius_m,
+          .leg_keeps_start_room = true};
 }
 
 bool is_clear_of_movers(const Mission& m, const Vec3& p_world_m, double in_s) {
@@ -208,7 +211,8 @@ std::optional<double> wait_for_movers_s(const Mission& m, const ViewPose& from,
 }
 
 /// Out of the way of a body that comes to where the vehicle is: one of the nearest places about it
-/// that may be flown to, through unseen space where there is no other. Nothing where no body comes.
+/// that may be flown to, through unseen space where there is no other. Nothing where no body
+/// comes or no place will do.
 std::optional<ViewPose> place_beside(const Mission& m, const ViewPose& here, double speed_m_s) {
   constexpr double kRest_s = 5.0;
   if (is_leg_clear_of_movers(m, here, here, speed_m_s, 0.0, kRest_s)) return std::nullopt;

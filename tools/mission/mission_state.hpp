@@ -95,7 +95,8 @@ void tell(const Mission& m, Event event, const Told&... told) {
 
 /// Flies one leg and keeps its track; `on_tick` runs after each tick. Waits first, where it is,
 /// until no body whose motion is known will be in the way. One that no wait of a minute makes clear
-/// is given up, as one that times out: then it flies to a place beside, out of the body's way.
+/// is given up, as one that times out: then it flies to a place beside where a body comes,
+/// else it stays a second.
 std::optional<Termination> fly_leg(Mission& m, const ViewPose& goal, double speed_m_s,
                                    const std::function<void(const Flight&)>& on_tick);
 /// At path speed, with nothing to do on the way.

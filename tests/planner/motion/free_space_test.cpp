@@ -145,8 +145,11 @@ TEST(FreeSpaceLeg, KeepsTheRoomThatItsStartHas) {
     for (double y_m = -3.9; y_m < 4.0; y_m += 0.2) plate_m.emplace_back(x_m, y_m, 2.1);
   }
   const OccupancyGrid grid = free_but_at(plate_m);
-  const FreeSpace space{
-      .grid = grid, .navigation_m = kNavigation, .no_fly = kNoBoxes, .radius_m = 1.5};
+  FreeSpace space{.grid = grid,
+                  .navigation_m = kNavigation,
+                  .no_fly = kNoBoxes,
+                  .radius_m = 1.5,
+                  .leg_keeps_start_room = true};
   const auto leg = [&](double room_m, double end_room_m) {
     return space.is_leg_clear(Vec3(0, 0, 2.0 - room_m), Vec3(3, 0, 2.0 - end_room_m));
   };
@@ -156,8 +159,8 @@ TEST(FreeSpaceLeg, KeepsTheRoomThatItsStartHas) {
   EXPECT_TRUE(leg(0.8, 0.8));
   EXPECT_FALSE(leg(0.7, 0.7)) << "less than half the radius";
   EXPECT_FALSE(leg(1.6, 1.4)) << "from where it has its room";
-  EXPECT_FALSE(is_path_clear(grid, Vec3(0, 0, 0.8), Vec3(3, 0, 0.8), 1.5))
-      << "no other leg does it";
+  space.leg_keeps_start_room = false;
+  EXPECT_FALSE(leg(1.2, 1.2)) << "the paper's rule";
 }
 
 std::optional<Rejection> rejection(const ValidityConfig& config, const OccupancyGrid& grid,

@@ -25,7 +25,13 @@ struct World {
     space.follow(grid);
     follow(Vec3(-5, -5, 1));
   }
-  FreeSpace free_space() const { return {grid, kBox, kNoBoxes, kRadius_m}; }
+  FreeSpace free_space() const {
+    return {.grid = grid,
+            .navigation_m = kBox,
+            .no_fly = kNoBoxes,
+            .radius_m = kRadius_m,
+            .leg_keeps_start_room = true};
+  }
   void follow(const Vec3& here_m, const HeedStop& stop = {}) {
     roadmap.follow(free_space(), space, here_m, stop);
   }
