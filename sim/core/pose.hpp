@@ -36,22 +36,14 @@ inline bool is_same_view(const ViewPose& a, const ViewPose& b) {
          a.gimbal_pitch_rad == b.gimbal_pitch_rad;
 }
 
-inline Isometry T_world_body(const ViewPose& pose) {
-  Isometry T = Isometry::Identity();
-  T.translate(pose.p_world_m);
-  T.rotate(Eigen::AngleAxisd(pose.yaw_rad, Vec3::UnitZ()));
-  return T;
-}
+Isometry T_world_body(const ViewPose& pose);
 
 /// Mounting of a sensor on the body: roll about x first, then pitch about y, then yaw about z.
-inline Isometry mounted(const Vec3& p_body_m, double roll_rad, double pitch_rad, double yaw_rad) {
-  Isometry T = Isometry::Identity();
-  T.translate(p_body_m);
-  T.rotate(Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()));
-  T.rotate(Eigen::AngleAxisd(pitch_rad, Vec3::UnitY()));
-  T.rotate(Eigen::AngleAxisd(roll_rad, Vec3::UnitX()));
-  return T;
-}
+Isometry mounted(const Vec3& p_body_m, double roll_rad, double pitch_rad, double yaw_rad);
+
+/// The least turn that takes the direction of `from` to that of `to`; of opposite ones, one of the
+/// half turns. Eigen's FromTwoVectors has an SVD for these, which takes the compiler 8 s.
+Eigen::Quaterniond turn_between(const Vec3& from, const Vec3& to);
 
 /// Heading of the body x axis in the world's horizontal plane, in (-pi, pi].
 inline double yaw_of(const Isometry& T_world_body) {

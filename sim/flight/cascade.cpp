@@ -146,7 +146,7 @@ Vec3 attitude_control(const AutopilotParameters& parameters, const Eigen::Quater
   // the smallest turn that aligns the thrust axis, and what heading is then left
   const Vec3 z_now = q * Vec3::UnitZ();
   const Vec3 z_wanted = setpoint.q_world_body * Vec3::UnitZ();
-  const Eigen::Quaterniond q_reduced = Eigen::Quaterniond::FromTwoVectors(z_now, z_wanted) * q;
+  const Eigen::Quaterniond q_reduced = turn_between(z_now, z_wanted) * q;
   Eigen::Quaterniond q_heading = q_reduced.conjugate() * setpoint.q_world_body;
   if (q_heading.w() < 0.0) q_heading.coeffs() *= -1.0;
   const double half_heading_rad = std::atan2(q_heading.z(), q_heading.w());

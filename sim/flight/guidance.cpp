@@ -199,7 +199,7 @@ Vec3 acceleration_setpoint(const AirframeParameters& airframe, const AutopilotPa
   // thrust and tilt depend on the drag, and the drag on both, but weakly: eight turns leave less
   // than 1 mm/s^2, even with the strongest drag of the presets
   for (int i = 0; i < 8; ++i) {
-    const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body_z_world);
+    const Eigen::Quaterniond q = turn_between(Vec3::UnitZ(), body_z_world);
     const Vec3 v_body_m_s = q.conjugate() * v_world_m_s;
     const Vec3 v_disk_m_s(v_body_m_s.x(), v_body_m_s.y(), 0.0);
     const double drag_per_s =

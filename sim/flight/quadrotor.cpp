@@ -34,9 +34,7 @@ Quadrotor::Beginning Quadrotor::begin(const VehicleConfig& config, const World& 
   if (trim.tilt_rad > 0.0) {
     const Vec3 thrust_world(trim.a_world_m_s2.x(), trim.a_world_m_s2.y(), airframe.gravity_m_s2);
     const Eigen::Matrix3d R_world_level = T.linear();
-    T.linear() =
-        Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), thrust_world).toRotationMatrix() *
-        R_world_level;
+    T.linear() = turn_between(Vec3::UnitZ(), thrust_world).toRotationMatrix() * R_world_level;
   }
   const Allocation allocation = allocation_of(airframe);
   for (std::size_t i = 0; i < allocation.rotors; ++i) {

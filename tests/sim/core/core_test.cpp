@@ -34,6 +34,20 @@ TEST(Pose, WrappedAngleIsTheSameDirectionWithinHalfATurnAndTheYawOfItsPose) {
   EXPECT_EQ(wrap_angle_rad(-kPi), kPi);
 }
 
+TEST(Pose, TurnBetweenDirectionsIsEigensLeastTurnAndAHalfTurnBetweenOppositeOnes) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    const auto number = [&](std::uint64_t k) {
+      return uniform01({i, Stream::start_pose, k}) - 0.5;
+    };
+    const Vec3 from(number(0), number(1), number(2));
+    const Vec3 to = i % 4 == 0 ? Vec3(-2.0 * from) : Vec3(number(3), number(4), number(5));
+    const Eigen::Quaterniond q = turn_between(from, to);
+    EXPECT_LT((q * from.normalized() - to.normalized()).norm(), 1e-9);
+    if (i % 4 == 0) continue;
+    EXPECT_EQ(q.coeffs(), Eigen::Quaterniond::FromTwoVectors(from, to).coeffs());
+  }
+}
+
 TEST(Rng, EveryPartOfTheKeyChangesTheNumber) {
   const RandomKey key{1, Stream::start_pose, 2, 3};
   std::set<std::uint64_t> seen = {random_bits(key),
