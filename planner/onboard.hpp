@@ -46,6 +46,7 @@ class Onboard {
   /// Throws BadInput for settings without camera and LIDAR or without a box, or a planner that
   /// nobody knows.
   explicit Onboard(OnboardSettings settings);
+  Onboard(Onboard&&) = delete;  // its planner refers to its model
 
   /// A profile that was measured now, or one that was saved: `profile.map` of a run. Throws
   /// BadInput for a file of another map.

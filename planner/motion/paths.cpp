@@ -10,13 +10,17 @@
 namespace gnbv {
 namespace {
 
-/// The lattice through the start of a search. Its nodes are numbered as they are met, the start 0.
+/// The lattice of a search: through its start, or what of the navigation box is nearest to that. A
+/// vehicle that hangs a millimetre below the box would find its whole level outside. Nodes are
+/// numbered as they are met, the start 0.
 class LatticeGraph {
  public:
   LatticeGraph(const PathSearchConfig& config, const FreeSpace& space, const Vec3& from_world_m,
                const Vec3& to_world_m)
       : space_(space),
         from_m_(from_world_m),
+        inside_m_(
+            from_world_m.cwiseMax(space.navigation_m.min()).cwiseMin(space.navigation_m.max())),
         to_m_(to_world_m),
         step_m_(std::max(space.radius_m, space.grid.geometry().resolution_m())),
         expansions_left_(limit(config)) {
@@ -26,8 +30,9 @@ class LatticeGraph {
   bool has_ended_early() const { return expansions_left_ < 0; }
   std::optional<GraphNode> last() const { return last_; }
   Vec3 p_world_m(GraphNode node) const {
+    if (node == 0) return from_m_;
     const Steps& at = steps_[node];
-    return from_m_ + step_m_ * Vec3(at[0], at[1], at[2]);
+    return inside_m_ + step_m_ * Vec3(at[0], at[1], at[2]);
   }
   bool is_leg_free(const Vec3& a_m, const Vec3& b_m) const {
     return space_.contains(b_m) && space_.is_leg_free(a_m, b_m);
@@ -75,7 +80,7 @@ class LatticeGraph {
   }
 
   const FreeSpace& space_;
-  const Vec3 from_m_, to_m_;
+  const Vec3 from_m_, inside_m_, to_m_;  // the start, what of the box is nearest to it, the goal
   const double step_m_;
   int expansions_left_;
   std::optional<GraphNode> last_;  // from which the straight leg to the goal is free

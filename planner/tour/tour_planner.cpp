@@ -41,6 +41,8 @@ struct Step {
             .navigation_m = model.navigation_m,
             .no_fly = model.no_fly,
             .radius_m = model.validity.collision_radius_m,
+            .allow_unknown = model.validity.allow_unknown,
+            .leg_radius_m = leg_radius_m(model.validity),
             .leg_keeps_start_room = true};
   }
   void follow_roadmap() const {
@@ -208,11 +210,31 @@ void solve_at_lower_costs(const Step& step) {
   } while (!solve_tour(step));
 }
 
+/// Where the vehicle sees no node of the lattice, the open voxels about it become nodes.
+void add_nodes_at_hand(const Step& step) {
+  TourState& state = step.state;
+  if (!state.roadmap.reachable().empty()) return;
+  const OccupancyGrid& grid = step.belief.grid;
+  const GridGeometry& voxels = grid.geometry();
+  constexpr std::int32_t kSteps = 4;  // to each side, twice the radius
+  const double step_m = 2.0 * step.model.validity.collision_radius_m / kSteps;
+  const auto stride = std::max(1, static_cast<std::int32_t>(step_m / voxels.resolution_m()));
+  const Key here = voxels.key_of(step.current.p_world_m);
+  for_each_key(keys_about({0, 0, 0}, kSteps), [&](const Key& offset) {
+    const Key key = {here[0] + stride * offset[0], here[1] + stride * offset[1],
+                     here[2] + stride * offset[2]};
+    if (voxels.contains(key) && state.space.is_open(grid, key))
+      state.roadmap.add(voxels.center_m(key));
+  });
+  step.follow_roadmap();
+}
+
 TourPlan replan(const Step& step, bool may_explore) {
   TourState& state = step.state;
   state.cells.follow_map(step.belief.grid);
   state.space.follow(step.belief.grid, step.stop);
   step.follow_roadmap();
+  add_nodes_at_hand(step);
   state.at = Roadmap::here();
   predict_gains(step);
   observe_nodes(step);

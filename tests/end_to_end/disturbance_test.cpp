@@ -123,6 +123,31 @@ TEST(ReturnHome, LeadsAroundANoFlyBox) {
   }
 }
 
+/// On a smooth way the vehicle is beside its legs, and may rest beyond them.
+TEST(ReturnHome, LeadsFromAnyPlaceOfASmoothWay) {
+  const Overrides around = {"guidance.trajectory=smooth", "vehicle.power.return_home=true",
+                            "planner.utility.name=route",
+                            "planner.routes.views=[{position_m: [0, 2.8, 1], yaw_deg: -90}]"};
+  const double arrival_s = Flown(smoke(around)).result.views.back().time_s;
+  for (const double before_s : {1.0, 2.0, 3.0, 4.0}) {
+    Overrides cut = around;
+    cut.push_back(fmt::format("planner.termination.max_flight_time_s={}", arrival_s - before_s));
+    const Flown flown(smoke(cut));
+    SCOPED_TRACE(before_s);
+    EXPECT_EQ(flown.result.termination, Termination::max_flight_time);
+    expect_home(flown);
+  }
+  // and from where one stops that has no view left to fly to
+  for (const auto& [views, seed] : {std::pair(5, 3), {6, 8}, {4, 9}, {6, 11}}) {
+    const Flown flown(smoke({"vehicle.power.return_home=true", "planner.utility.name=tour",
+                             "planner.preset=takeoff", fmt::format("seed={}", seed),
+                             fmt::format("planner.termination.max_iterations={}", views)}));
+    SCOPED_TRACE(seed);
+    EXPECT_EQ(flown.result.termination, Termination::max_iterations);
+    expect_home(flown);
+  }
+}
+
 /// As the mission has it, which knows longer ways home; and nothing less than it takes is enough.
 TEST(Battery, BringsHomeFromEveryViewOfAMissionThatReturns) {
   const double battery_wh = Flown(smoke({"vehicle.power.return_home=true"})).result.energy_wh;

@@ -58,6 +58,21 @@ TEST(MovingObstacle, OneThatComesToWhereTheVehicleWaitsIsMadeWayFor) {
   }
 }
 
+/// It goes to and fro and stays on the first corner of the way home, behind the structure.
+TEST(MovingObstacle, OneInTheWayHomeIsNotFledThroughTheStructure) {
+  const std::string round = "{offset_m: [0, -4, 0]}, {offset_m: [0, 0, 0]}, ";
+  const Flown flown(
+      smoke({"obstacles=[{box_m: {min: [1.9, 1.9, 3.4], max: [2.1, 2.1, 3.6]}, "
+             "motion: {waypoints: [" +
+                 round + round +
+                 "{offset_m: [-1.2, -0.8, -1.6]}], speed_m_s: 0.19, loop: false, "
+                 "known: true}}]",
+             "vehicle.power.return_home=true", "planner.utility.name=route",
+             "planner.routes.views=[{position_m: [0, 2.8, 1], yaw_deg: -90}]"}));
+  EXPECT_GT(flown.result.legs_timed_out, 0) << "no leg was given up";
+  EXPECT_EQ(flown.result.termination, Termination::route_flown);
+}
+
 TEST(MovingObstacle, IsSeenAndItsOldPlacesAreSeenToBeFreeAgain) {
   const Flown flown(smoke(pillar(false, "proposed")));
   // on its way, beyond all of the structure, what was seen occupied

@@ -39,6 +39,44 @@ TEST(Takeoff, TheResultDependsNeitherOnThreadsNorOnAStop) {
   EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash);
 }
 
+TEST(Takeoff, BrakesWhereTheMissionEnds) {
+  for (const std::uint64_t seed : {1, 3, 5}) {
+    const std::string s = fmt::format("seed={}", seed);
+    const Flown empty(takeoff({s, "vehicle.power.battery_wh=0.7"}));
+    EXPECT_EQ(empty.result.termination, Termination::battery);
+    EXPECT_LT(empty.result.energy_wh, 0.7);
+    const Flown late(takeoff({s, "planner.termination.max_flight_time_s=15"}));
+    EXPECT_EQ(late.result.termination, Termination::max_flight_time);
+    EXPECT_LT(late.result.flight_time_s, 15.0 + 4.0);  // from 2 m/s at 1 m/s2
+  }
+}
+
+/// Seeds from whose start no node of the lattice is in sight.
+TEST(Takeoff, GoesOnWhereTheStartHasSeenLittle) {
+  for (const std::uint64_t seed : {5, 10, 32}) {
+    const Flown flown(takeoff({fmt::format("seed={}", seed)}));
+    EXPECT_EQ(flown.result.termination, Termination::tour_complete);
+    EXPECT_GT(flown.result.views.size(), 5U) << seed;
+  }
+}
+
+/// The gimbal takes up to 1.5 s; a view that is past by then is come back to.
+TEST(Takeoff, WaitsForTheGimbalNearTheView) {
+  const Flown flown(takeoff({"seed=2", "cameras.0.pitch_deg={min: -30, max: 60, step: 30}"}));
+  const std::vector<ViewRecord>& views = flown.result.views;
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    const double straight_m = views[i].straight_m - views[i - 1].straight_m;
+    EXPECT_LT(views[i].flown_m - views[i - 1].flown_m, straight_m + 4.0) << i;
+  }
+}
+
+TEST(Takeoff, SmoothWaysMayCrossWhatIsUnknownWhereThatIsAllowed) {
+  const Flown flown(smoke({"seed=2", "guidance.trajectory=smooth", "planner.profiling.method=none",
+                           "planner.validity.allow_unknown=true"}));
+  EXPECT_EQ(flown.result.legs_timed_out, 0);
+  EXPECT_GT(flown.result.distance.flown_m, 2.0);
+}
+
 TEST(Takeoff, SweepsBetweenViewsAreSurfaceToLookAtAndCoverNothing) {
   // without a profile and without a camera's return, nothing else can fill map or cloud
   Watch watch;
@@ -74,7 +112,7 @@ TEST(Takeoff, FromTheGroundItClimbsToWhereTheOthersBegin) {
     // 2 m/s at most, and what the rotors take to spool up
     EXPECT_GT(ground.profile_end_s - air.profile_end_s, up_m / 2.0) << kind;
     EXPECT_LT(ground.profile_end_s - air.profile_end_s, up_m / 2.0 + 10.0) << kind;
-    EXPECT_GT(ground.energy_wh, air.energy_wh) << kind;
+    EXPECT_GT(ground.views[0].energy_wh, air.views[0].energy_wh) << kind;
     EXPECT_EQ(ground.termination, air.termination) << kind;
     EXPECT_EQ(result_sha256(Flown(takeoff(keys), {}, 2).result), result_sha256(ground)) << kind;
   }

@@ -13,14 +13,17 @@ constexpr double kNoLeg_m = 0.01;
 
 bool has_battery(const Mission& m) { return m.scenario.vehicle.power.battery_wh > 0.0; }
 
-/// Back through all views to the first one, which is home.
+/// Back through the places of all views to that of the first one, which is home.
 std::vector<Vec3> as_it_came(const Mission& m) {
   std::vector<Vec3> way_m;
-  const std::vector<Decision>& decisions = m.history.decisions;
-  for (std::size_t i = decisions.size(); i-- > 1;) {
-    const std::vector<Vec3>& via_m = decisions[i].via_world_m;
-    way_m.insert(way_m.end(), via_m.rbegin(), via_m.rend());
-    way_m.push_back(decisions[i - 1].view.p_world_m);
+  if (!m.taken_at_m.empty()) way_m.push_back(m.taken_at_m.back());
+  for (std::size_t i = m.taken_at_m.size(); i-- > 1;) {
+    const Decision& decision = m.history.decisions[i];
+    const bool was_reached =
+        (decision.view.p_world_m - m.taken_at_m[i]).norm() < m.model.validity.collision_radius_m;
+    const std::vector<Vec3>& via_m = decision.via_world_m;
+    if (was_reached) way_m.insert(way_m.end(), via_m.rbegin(), via_m.rend());
+    way_m.push_back(m.taken_at_m[i - 1]);
   }
   way_m.push_back(m.out.start.p_world_m);
   return way_m;
@@ -146,6 +149,50 @@ bool land(Mission& m) {
   return m.flight->has_landed();
 }
 
+/// From where it rests: by the exit that takes the least of those to which a leg is clear.
+std::vector<Vec3> way_home(Mission& m) {
+  const Vec3 here_m = believed_p_world_m(m);
+  if (m.exits.empty()) return over_the_top(m, here_m, true);
+  std::erase_if(m.exits, [&, space = leg_space(m)](const Exit& exit) {
+    return !space.is_leg_clear(here_m, exit.p_world_m);
+  });
+  if (!m.exits.empty()) return joined({}, *best_exit(m, here_m));
+  return found_way(m, here_m).value_or(as_it_came(m));
+}
+
+/// Where a leg was given up, it flies on to a later point to which a free leg leads, or by a way
+/// found anew, or tries again; after some tries it stays where it is.
+void fly_way_home(Mission& m, double yaw_rad) {
+  constexpr int kTries = 10;
+  std::vector<Vec3> way_m = way_home(m);
+  const int given_up = m.out.legs_timed_out;
+  for (std::size_t i = 0; i < way_m.size();) {
+    if ((way_m[i] - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) {
+      ++i;
+      continue;
+    }
+    const int before = m.out.legs_timed_out;
+    const auto over = fly_leg(m, {way_m[i], yaw_rad});
+    if (over && *over != Termination::battery) m.out.termination = *over;
+    if (over || m.out.legs_timed_out - given_up > kTries) return;
+    if (m.out.legs_timed_out == before) {
+      ++i;
+      continue;
+    }
+    const auto later =
+        std::find_if(way_m.begin() + static_cast<std::ptrdiff_t>(i) + 1, way_m.end(),
+                     [&, here_m = believed_p_world_m(m), space = free_space(m)](const Vec3& p_m) {
+                       return space.is_leg_free(here_m, p_m);
+                     });
+    if (later != way_m.end()) {
+      i = static_cast<std::size_t>(later - way_m.begin());
+    } else if (auto found_m = found_way(m, believed_p_world_m(m))) {
+      way_m = *std::move(found_m);
+      i = 0;
+    }
+  }
+}
+
 }  // namespace
 
 bool has_energy_to_go_on(const Mission& m) {
@@ -186,16 +233,8 @@ bool ends_at_home(const Mission& m, Termination reason) {
 void fly_home(Mission& m) {
   m.is_homing = true;
   const double flown_before_m = m.flown_m;
-  const ViewPose from = m.current;
-  const Vec3 start_m = believed_p_world_m(m);
   HomeFlight home;
-  const Exit* const exit = best_exit(m, start_m);
-  for (const Vec3& point_m : exit != nullptr ? joined({}, *exit) : over_the_top(m, start_m, true)) {
-    if ((point_m - believed_p_world_m(m)).norm() < m.scenario.guidance.arrival_distance_m) continue;
-    const auto over = fly_leg(m, {point_m, from.yaw_rad});
-    if (over && *over != Termination::battery) m.out.termination = *over;
-    if (over) break;
-  }
+  fly_way_home(m, m.current.yaw_rad);
   home.reached = (believed_p_world_m(m) - m.out.start.p_world_m).norm() <
                  m.scenario.planner.validity.collision_radius_m;
   const bool has_ground = m.scenario.structure.ground || !m.scenario.terrain.path.empty();

@@ -74,16 +74,24 @@ std::optional<Termination> take_off(Mission& m) {
 /// Flies to the view, the gimbal turning from the first tick on, and waits there until it has.
 std::optional<Termination> fly_to_view(Mission& m, const Decision& next) {
   const ScopeTimer timer(m.view_wall.fly_s);
-  m.out.distance.straight_m = planned_m(m.history, m.current.p_world_m, next);
+  const Vec3 from_m = m.current.p_world_m;
+  const double planned_there_m = planned_m(m.history, from_m, next);
+  const int given_up = m.out.legs_timed_out;
   const auto look = looks_on_the_way(m, next.view);
   const bool is_smooth = m.scenario.guidance.trajectory == Trajectory::smooth;
   std::optional<Termination> over = is_smooth ? fly_past(m, next, look) : fly_legs(m, next, look);
   const auto is_gimbal_late = [&] { return m.gimbal_pitch_rad != next.view.gimbal_pitch_rad; };
   if (!over && is_smooth && is_gimbal_late()) over = come_to_rest(m, look);
   while (!over && is_gimbal_late()) {
-    over = fly_leg(m, next.view, m.scenario.guidance.path_speed_m_s, look);
+    over = fly_leg(m, m.current, m.scenario.guidance.path_speed_m_s, look);
   }
   m.out.distance.flown_m = m.flown_m;
+  if (over) return over;
+  if (m.out.legs_timed_out == given_up) {
+    m.out.distance.straight_m = planned_there_m;
+  } else {
+    m.out.distance.straight_m += (m.current.p_world_m - from_m).norm();
+  }
   return over;
 }
 
@@ -132,6 +140,7 @@ void record(Mission& m, const Decision& decision) {
   if (!m.out.user_views.empty()) m.out.user_views.back().iteration = m.out.views.size();
   const Belief& belief = m.out.belief;
   remember(decision, belief, m.out.distance.straight_m, m.history);
+  m.taken_at_m.push_back(m.current.p_world_m);
   const std::size_t points = belief.cloud.points_world_m().size();
   const std::size_t occupied = belief.grid.occupied_count();
   m.out.views.push_back(

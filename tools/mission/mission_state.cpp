@@ -69,6 +69,7 @@ MissionMoment::MissionMoment(const MissionMoment& other, std::uint64_t seed)
       scanner(other.scanner, model.lidars, seed),
       history(other.history),
       current(other.current),
+      taken_at_m(other.taken_at_m),
       last_p_world_m(other.last_p_world_m),
       gimbal_pitch_rad(other.gimbal_pitch_rad),
       flown_m(other.flown_m),
@@ -137,6 +138,13 @@ FreeSpace free_space(const Mission& m) {
           .no_fly = m.model.no_fly,
           .radius_m = m.model.validity.collision_radius_m,
           .leg_keeps_start_room = true};
+}
+
+FreeSpace leg_space(const Mission& m) {
+  FreeSpace space = free_space(m);
+  space.allow_unknown = m.model.validity.allow_unknown;
+  space.leg_radius_m = leg_radius_m(m.model.validity);
+  return space;
 }
 
 bool is_clear_of_movers(const Mission& m, const Vec3& p_world_m, double in_s) {

@@ -37,6 +37,7 @@ struct MissionMoment {
   ProfileScanner scanner;  // of sweeps between views
   History history;
   ViewPose current;               // where the planner believes to be
+  std::vector<Vec3> taken_at_m;   // each view, by what was believed
   Vec3 last_p_world_m;            // truth, one tick ago
   double gimbal_pitch_rad = 0.0;  // where it is
   double flown_m = 0.0;           // truth, since the start
@@ -74,8 +75,10 @@ bool should_stop(const Mission& m);
 /// After each tick: keeps the true track.
 void keep_track(Mission& m);
 
-/// Where the vehicle may fly by what is believed now.
+/// Where the vehicle may fly by what is believed now: on its way home through known space alone.
 FreeSpace free_space(const Mission& m);
+/// To a view: as planners plan (planner.validity).
+FreeSpace leg_space(const Mission& m);
 
 /// Whether no body whose motion is known comes nearer than the collision radius then, so many
 /// seconds from now.
@@ -117,7 +120,8 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
 /// occupied, and through nothing that is not known to be free; where there is none, by legs.
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick);
-/// Flies the way at hand to its end, whatever else would end the mission; says whether it collided.
+/// Brakes, whatever else would end the mission; says whether it collided. Where no free leg leads
+/// back to where the vehicle passed the last view, it is no longer there (Mission::current).
 std::optional<Termination> come_to_rest(Mission& m,
                                         const std::function<void(const Flight&)>& on_tick);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "planner/motion/free_space.hpp"
@@ -20,7 +21,7 @@ Reference reference_now(const Mission& m) {
 bool is_way_free(const Mission& m, const Vec3& from_m, std::span<const Reference> path) {
   constexpr std::size_t kChord = 5;
   constexpr double kOvershoot_m = 0.2;  // beyond the navigation box, of a curve
-  const FreeSpace space = free_space(m);
+  const FreeSpace space = leg_space(m);
   const Vec3 slack_m = Vec3::Constant(kOvershoot_m);
   const Box3 box_m(space.navigation_m.min() - slack_m, space.navigation_m.max() + slack_m);
   Vec3 at_m = from_m;
@@ -117,28 +118,44 @@ bool find_way(Mission& m, const Decision& next) {
   return take_way(m, std::span(poses).first(to_view), 0.15, 0.5 * speed_m_s);
 }
 
-/// To a stop, straight on; along the way at hand while that is clear and the straight is not.
-std::optional<Termination> stop(Mission& m, bool is_way_clear,
-                                const std::function<void(const Flight&)>& on_tick) {
+/// Takes up the way to a stop, straight on; keeps the way at hand while that is clear and the
+/// straight is not. Whether it keeps it.
+bool take_stop(Mission& m, bool is_way_clear) {
   const Reference now = reference_now(m);
   const double speed_m_s = now.v_world_m_s.norm();
-  if (speed_m_s == 0.0) return std::nullopt;
   const double braking_m = 0.7 * speed_m_s * speed_m_s / m.scenario.guidance.acceleration_m_s2;
   const PassedPose at = {{now.p_world_m + braking_m / speed_m_s * now.v_world_m_s, now.yaw_rad},
                          false};
   auto path = smooth_path(now, {&at, 1}, m.scenario.guidance.path_speed_m_s, m.scenario.guidance,
                           m.scenario.vehicle);
-  const bool keeps_to_way = is_way_clear && !is_way_free(m, now.p_world_m, path) &&
-                            is_way_free(m, now.p_world_m, std::span(m.path).subspan(m.path_at));
-  if (!keeps_to_way) {
-    m.path = std::move(path);
-    m.path_at = 0;
+  if (is_way_clear && !is_way_free(m, now.p_world_m, path) &&
+      is_way_free(m, now.p_world_m, std::span(m.path).subspan(m.path_at))) {
+    return true;
   }
+  m.path = std::move(path);
+  m.path_at = 0;
+  return false;
+}
+
+bool is_at_rest(const Mission& m) { return reference_now(m).v_world_m_s.isZero(0.0); }
+
+std::optional<Termination> stop(Mission& m, bool is_way_clear,
+                                const std::function<void(const Flight&)>& on_tick) {
+  if (is_at_rest(m)) return std::nullopt;
+  const bool keeps_to_way = take_stop(m, is_way_clear);
   const auto end = fly_on(m, kAll, on_tick, keeps_to_way);
   const auto* const flown = std::get_if<WayEnd>(&end);
   if (flown != nullptr && *flown == WayEnd::blocked) return stop(m, false, on_tick);
   const auto* const over = std::get_if<Termination>(&end);
   return over != nullptr ? std::optional(*over) : std::nullopt;
+}
+
+/// Of the way to the view the exits at the ends of the leg at hand: what lies beside it may be in
+/// the way to others.
+void keep_exits(Mission& m, std::size_t leg) {
+  if (m.corners.empty()) return;
+  leg = std::min(leg, m.corners.size() - 2);
+  m.exits = {m.corners[leg], m.corners[leg + 1]};
 }
 
 /// Where the vehicle believes to be, for the planner.
@@ -162,15 +179,14 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vec3 here_m = m.flight->estimate().T_world_body.translation();
     const bool is_open = was_planned_from_here
-                             ? !bodies_move || free_space(m).is_leg_clear(here_m, legs[i].p_world_m)
-                             : free_space(m).is_leg_free(here_m, legs[i].p_world_m);
+                             ? !bodies_move || leg_space(m).is_leg_clear(here_m, legs[i].p_world_m)
+                             : leg_space(m).is_leg_free(here_m, legs[i].p_world_m);
     if (!is_open) {
       set_current(m, m.gimbal_pitch_rad);
       ++m.out.legs_timed_out;
       return std::nullopt;
     }
-    // no nearer to home than the ends of the leg at hand: what lies beside it may be in the way
-    if (!m.corners.empty()) m.exits = {m.corners[i], m.corners[i + 1]};
+    keep_exits(m, i);
     const PassedPose end = {legs[i]};
     const auto over = fly_leg(m, legs[i], sharp_speed_m_s(m, here_m, {&end, 1}), on_tick);
     if (over) return over;
@@ -180,7 +196,6 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
 
 std::optional<Termination> fly_past(Mission& m, const Decision& next,
                                     const std::function<void(const Flight&)>& on_tick) {
-  if (!m.corners.empty()) m.exits = m.corners;
   bool has_way = find_way(m, next);
   if (!has_way && m.path_at > 0) {
     if (const auto over = stop(m, true, on_tick)) return over;
@@ -191,7 +206,12 @@ std::optional<Termination> fly_past(Mission& m, const Decision& next,
     m.path_at = 0;
     return fly_legs(m, next, on_tick);
   }
-  const auto end = fly_on(m, next.via_world_m.size() + 1, on_tick);
+  std::size_t corner = kAll;
+  const auto end = fly_on(m, next.via_world_m.size() + 1, [&](const Flight& flight) {
+    const std::size_t passed = m.path[m.path_at - 1].passed;
+    if (passed != std::exchange(corner, passed)) keep_exits(m, passed);
+    on_tick(flight);
+  });
   if (const auto* const over = std::get_if<Termination>(&end)) return *over;
   if (std::get<WayEnd>(end) == WayEnd::blocked) {
     if (const auto over = stop(m, false, on_tick)) return over;
@@ -203,6 +223,9 @@ std::optional<Termination> fly_past(Mission& m, const Decision& next,
 
 std::optional<Termination> come_to_rest(Mission& m,
                                         const std::function<void(const Flight&)>& on_tick) {
+  const bool was_at_rest = is_at_rest(m);
+  if (was_at_rest) m.path.clear();
+  if (!was_at_rest) take_stop(m, true);
   const LegEnd end =
       fly_path(*m.flight, m.path, m.path_at, kAll, m.scenario.vehicle, [&](const Flight& flight) {
         keep_track(m);
@@ -211,6 +234,10 @@ std::optional<Termination> come_to_rest(Mission& m,
       });
   m.path.clear();
   m.path_at = 0;
+  const Vec3 here_m = m.flight->estimate().T_world_body.translation();
+  if (!was_at_rest && !leg_space(m).is_leg_free(here_m, m.current.p_world_m)) {
+    set_current(m, m.current.gimbal_pitch_rad);
+  }
   return end == LegEnd::collision ? std::optional(Termination::collision) : std::nullopt;
 }
 

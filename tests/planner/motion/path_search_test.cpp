@@ -56,6 +56,18 @@ TEST(FindPath, GoesAroundAWallAndStaysClear) {
   EXPECT_LE(length_m, 1.25 * taut_m);
 }
 
+TEST(FindPath, FromAMillimetreBelowTheBoxIsAsShort) {
+  const OccupancyGrid grid = wall_up_to(2.0);
+  Box3 above_m = kWorkspace;
+  above_m.min().z() = kFrom.z() + 0.001;
+  above_m.max().z() = above_m.min().z() + 0.1;  // one level of the lattice
+  const Vec3 to_m = kTo + Vec3(0, 0, 0.001);
+  const FoundPath found = find_path({}, {grid, above_m, kNoBoxes, kRadius_m}, kFrom, to_m);
+  ASSERT_FALSE(found.rejected);
+  EXPECT_NEAR(path_length_m(kFrom, found.via_world_m, to_m),
+              path_length_m(kFrom, search(grid).via_world_m, kTo), 0.1);
+}
+
 TEST(FindPath, SaysWhyThereIsNoWay) {
   const PathSearchConfig all = {.max_expansions = 10000};  // that the box has
   const Box3 short_of_the_gap_m(Vec3(-6, -6, 0), Vec3(6, 1.5, 6));
