@@ -139,6 +139,7 @@ bool take_stop(Mission& m, bool is_way_clear) {
 
 bool is_at_rest(const Mission& m) { return reference_now(m).v_world_m_s.isZero(0.0); }
 
+/// Brakes while the mission goes on; what ends it meanwhile.
 std::optional<Termination> stop(Mission& m, bool is_way_clear,
                                 const std::function<void(const Flight&)>& on_tick) {
   if (is_at_rest(m)) return std::nullopt;
@@ -174,12 +175,13 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
   }
   legs.push_back(next.view);
   const bool was_planned_from_here = m.scenario.guidance.trajectory == Trajectory::legs;
-  const bool bodies_move = std::ranges::any_of(
+  // since they were planned, a body may have come, or a leg before them was given up
+  bool is_map_asked = std::ranges::any_of(
       m.scenario.obstacles, [](const auto& body) { return !body.motion.waypoints.empty(); });
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Vec3 here_m = m.flight->estimate().T_world_body.translation();
     const bool is_open = was_planned_from_here
-                             ? !bodies_move || leg_space(m).is_leg_clear(here_m, legs[i].p_world_m)
+                             ? !is_map_asked || leg_space(m).is_leg_clear(here_m, legs[i].p_world_m)
                              : leg_space(m).is_leg_free(here_m, legs[i].p_world_m);
     if (!is_open) {
       set_current(m, m.gimbal_pitch_rad);
@@ -188,8 +190,10 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
     }
     keep_exits(m, i);
     const PassedPose end = {legs[i]};
+    const int given_up = m.out.legs_timed_out;
     const auto over = fly_leg(m, legs[i], sharp_speed_m_s(m, here_m, {&end, 1}), on_tick);
     if (over) return over;
+    is_map_asked |= m.out.legs_timed_out != given_up;
   }
   return std::nullopt;
 }
