@@ -79,12 +79,21 @@ GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
     while (!text.empty() && text.back() == '\0') text.pop_back();  // padding of some writers
   }
   text = as_utf8(std::move(text));
+  // whoever copies or prints a value calls itself for each level of it
+  const auto is_shallow = [this](int depth, Json::parse_event_t, const Json&) {
+    constexpr int kMostDeep = 200;
+    if (depth > kMostDeep) fail(fmt::format("its JSON is more than {} deep", kMostDeep));
+    return true;
+  };
   try {
-    json_ = Json::parse(text);
+    json_ = Json::parse(text, is_shallow);
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     fail(fmt::format("is no glTF file: line {} is no JSON",
                      1 + std::count(text.begin(), end, '\n')));
+  } catch (const Json::exception& error) {  // "[name] number overflow parsing '1e400'"
+    const std::string what = error.what();
+    fail(fmt::format("is no glTF file: {}", what.substr(what.find("] ") + 2, 100)));
   }
   if (!json_.is_object()) fail("is no glTF file: its JSON is no object");
   const auto asset = json_.find("asset");

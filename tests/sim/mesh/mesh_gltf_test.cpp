@@ -141,6 +141,7 @@ TEST_F(GltfFile, ContainersAreReadAsTheyAre) {
   EXPECT_EQ(read("t.glb", glb).mesh.faces.size(), 1U);
   EXPECT_TRUE(says(fault("t.glb", glb.substr(0, glb.size() - 9)), {"is cut off"}));
   const std::string whole = Gltf{}.json();
+  const std::string nested = std::string(100'000, '[') + std::string(100'000, ']');
   for (const auto& [text, what] : std::vector<std::pair<std::string, const char*>>{
            {replaced(whole, "\"2.0\"", "\"1.0\""), "is glTF 1"},
            {replaced(whole, "\"buffers\"", R"("extensionsRequired": ["X_new"], "buffers")"),
@@ -155,6 +156,8 @@ TEST_F(GltfFile, ContainersAreReadAsTheyAre) {
            {replaced(whole, "\"count\": 3", "\"count\": 4"), "reaches beyond"},
            {replaced(whole, "\"count\": 3", "\"count\": -1"), "'count' is -1"},
            {replaced(whole, "\"mesh\": 0", "\"mesh\": 7"), "meshes[7], which does not exist"},
+           {replaced(whole, "\"count\": 3", "\"count\": " + nested), "more than 200 deep"},
+           {replaced(whole, "\"count\": 3", "\"count\": 1e400"), "overflow parsing '1e400'"},
            {whole.substr(0, 200), "is no JSON"},
            {"[]", "no object"}}) {
     EXPECT_TRUE(says(fault("t.gltf", text), {what})) << what;
