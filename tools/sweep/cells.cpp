@@ -33,11 +33,19 @@ class Resolver {
     options.scenario = scenario.scenario;
     options.mesh = scenario.mesh;
     options.bounds_auto = scenario.bounds_auto;
-    return resolve_scenario(options, nullptr, overrides,
-                            [this](const Scenario& resolved) { return extent_of(resolved); });
+    try {
+      return resolve_scenario(options, nullptr, overrides,
+                              [this](const Scenario& resolved) { return extent_of(resolved); });
+    } catch (const NoExtent&) {
+      options.bounds_auto = false;
+      return resolve_scenario(options, nullptr, overrides);
+    }
   }
 
  private:
+  /// Of what cannot be read: its own mission will say why, the others fly.
+  struct NoExtent {};
+
   StructureExtent extent_of(const Scenario& scenario) {
     Scenario only;  // what the extent depends on
     only.structure = scenario.structure;
@@ -45,13 +53,20 @@ class Resolver {
     only.obstacles = scenario.obstacles;
     only.planner.floor_z_m = scenario.planner.floor_z_m;
     const std::string key = to_yaml(only);
-    const auto known = extents_.find(key);
-    if (known != extents_.end()) return known->second;
-    return extents_[key] = structure_extent(scenario);
+    const auto [entry, is_new] = extents_.try_emplace(key);
+    if (is_new) {
+      try {
+        entry->second = structure_extent(scenario);
+      } catch (const BadInput&) {
+        entry->second.reset();
+      }
+    }
+    if (!entry->second) throw NoExtent{};
+    return *entry->second;
   }
 
   std::string folder_;
-  std::map<std::string, StructureExtent> extents_;
+  std::map<std::string, std::optional<StructureExtent>> extents_;
 };
 
 /// Material libraries, buffers, pictures, the meshes of a model. None where the mesh cannot be

@@ -217,6 +217,16 @@ TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
   EXPECT_NE(id("mesh: a/m.obj, set: {structure.file.scale: 2}"), first);
 }
 
+TEST_F(SweepFile, AMeshThatCannotBeReadIsTheFaultOfItsOwnCell) {
+  write_triangle(temp_.path() / "m.obj");
+  std::ofstream(temp_.path() / "cut.glb") << "glTF";
+  const std::string good = "{name: good, scenario: smoke, mesh: m.obj, bounds: auto}";
+  const std::vector<Cell> cells = cells_of(read(
+      "scenarios: [{name: bad, scenario: smoke, mesh: cut.glb, bounds: auto}, " + good + "]\n"));
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_EQ(cells[1].id, cells_of(read("scenarios: " + good + "\n"))[0].id);
+}
+
 TEST_F(SweepFile, RelativePathsMeanBesideTheFile) {
   write_triangle(temp_.path() / "m.obj");
   std::ofstream(temp_.path() / "mine.yaml") << "name: own\ncameras: [{}]\n";
