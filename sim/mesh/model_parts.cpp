@@ -148,23 +148,27 @@ fs::path resolved(const fs::path& document, const XmlElement& at, std::string ur
   fail_at(document, at, fmt::format("'{}' is neither in {} nor above it", uri, folder.string()));
 }
 
-const TriangleMesh& ModelParts::mesh_at(const fs::path& file, bool keeps_uvs) {
+const ModelParts::FileMesh& ModelParts::mesh_at(const fs::path& file, bool keeps_uvs) {
   if (is_model(file)) throw BadInput(fmt::format("{}: is no mesh of a visual", file.string()));
   const auto [entry, is_new] = meshes_.try_emplace({file.lexically_normal().string(), keeps_uvs});
   if (!is_new) return entry->second;
   const bool is_collada = extension_of(file) == ".dae";
-  MeshReading part =
-      read_mesh({.path = entry->first.first, .up_axis = is_collada ? "z" : "auto"}, keeps_uvs);
+  MeshFileConfig config{.path = entry->first.first, .up_axis = is_collada ? "z" : "auto"};
+  MeshReading part = read_mesh(config, keeps_uvs);
+  if (const auto offset_m = offset_to_origin_m(part.mesh)) {
+    config.offset_m = *offset_m;
+    part = read_mesh(config, keeps_uvs);
+  }
   if (!part.not_finite.empty() && reading.not_finite.empty()) reading.not_finite = part.not_finite;
   reading.lost_faces += part.lost_faces;
   reading.warnings.insert(reading.warnings.end(), part.warnings.begin(), part.warnings.end());
   reading.files.push_back(file);
   reading.files.insert(reading.files.end(), part.files.begin(), part.files.end());
-  return entry->second = std::move(part.mesh);
+  return entry->second = {std::move(part.mesh), config.offset_m};
 }
 
-TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& shape,
-                                  bool keeps_uvs) {
+TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& shape, bool keeps_uvs,
+                                  Matrix4& T_model_geometry) {
   const std::string_view kind = shape.name();
   const auto sizes = [&](const char* name, std::size_t count) {
     const auto v = numbers_of(document, shape, value_of(document, shape, name), {count});
@@ -197,19 +201,24 @@ TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& sh
   if (kind != "mesh") fail_at(document, shape, fmt::format("<{}> is not read", kind));
   if (shape.child("submesh")) fail_at(document, shape, "<submesh> is not read");
   const bool is_urdf = shape.attribute("filename").has_value();
-  TriangleMesh mesh =
+  auto [mesh, offset_m] =
       mesh_at(resolved(document, shape, value_of(document, shape, is_urdf ? "filename" : "uri")),
               keeps_uvs);
+  Matrix4 scaling = Matrix4::Identity();
   if (shape.attribute("scale") || shape.child("scale")) {
     auto v = numbers_of(document, shape, value_of(document, shape, "scale"), {1, 3});
     v.resize(3, v[0]);
-    transform(mesh, placed(Vec3::Zero(), Vec3(v[0], v[1], v[2]).asDiagonal().toDenseMatrix()));
+    scaling.diagonal().head<3>() = Vec3(v[0], v[1], v[2]);
+    if (offset_m.isZero()) transform(mesh, scaling);
   }
-  return mesh;
+  if (!offset_m.isZero()) {
+    T_model_geometry *= scaling * placed(-offset_m, Eigen::Matrix3d::Identity());
+  }
+  return std::move(mesh);
 }
 
-void ModelParts::add(const fs::path& document, const XmlElement& geometry,
-                     const Matrix4& T_model_geometry, const Look& look) {
+void ModelParts::add(const fs::path& document, const XmlElement& geometry, Matrix4 T_model_geometry,
+                     const Look& look) {
   const std::vector<XmlElement> shapes = geometry.children();
   if (shapes.size() != 1) {
     fail_at(document, geometry, fmt::format("<geometry> of {} shapes", shapes.size()));
@@ -219,7 +228,8 @@ void ModelParts::add(const fs::path& document, const XmlElement& geometry,
     ++planes_;
     return;
   }
-  TriangleMesh part = shape_of(document, shapes[0], look.texture.image != nullptr);
+  TriangleMesh part =
+      shape_of(document, shapes[0], look.texture.image != nullptr, T_model_geometry);
   transform(part, T_world_model_ * T_model_geometry);
   const Material& first = part.materials.front();
   if (part.materials.size() == 1 &&

@@ -42,7 +42,7 @@ class ModelParts {
   /// Adds what a <geometry> of a document holds: box, sphere, cylinder, capsule, cone, ellipsoid or
   /// mesh, of URDF or SDF. The look is of what has none of its own.
   void add(const std::filesystem::path& document, const XmlElement& geometry,
-           const Matrix4& T_model_geometry, const Look& look);
+           Matrix4 T_model_geometry, const Look& look);
   /// The picture that a material names; one that is not there is none, with a warning.
   Texture picture(const std::filesystem::path& document, const XmlElement& at,
                   const std::string& uri);
@@ -52,13 +52,20 @@ class ModelParts {
   MeshReading reading;
 
  private:
+  /// A mesh file's, less what would round off its millimetres: the offset of a map grid.
+  struct FileMesh {
+    TriangleMesh mesh = {};
+    Vec3 offset_m = Vec3::Zero();  // added to what the file says
+  };
+
+  /// In the frame that `T_model_geometry` becomes the pose of.
   TriangleMesh shape_of(const std::filesystem::path& document, const XmlElement& shape,
-                        bool keeps_uvs);
-  const TriangleMesh& mesh_at(const std::filesystem::path& file, bool keeps_uvs);
+                        bool keeps_uvs, Matrix4& T_model_geometry);
+  const FileMesh& mesh_at(const std::filesystem::path& file, bool keeps_uvs);
 
   Matrix4 T_world_model_;
-  std::map<std::pair<std::string, bool>, TriangleMesh> meshes_;  // by path and keeps_uvs
-  TextureFiles pictures_;                                        // of materials, not of meshes
+  std::map<std::pair<std::string, bool>, FileMesh> meshes_;  // by path and keeps_uvs
+  TextureFiles pictures_;                                    // of materials, not of meshes
   std::size_t planes_ = 0;
 };
 

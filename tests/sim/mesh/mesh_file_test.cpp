@@ -180,9 +180,22 @@ TEST_F(MeshFile, MillimetresBesideTheOffsetOfAMapGridAreKept) {
         file(write(name, is_stl ? stl + "endloop\nendfacet\nendsolid\n" : text));
     EXPECT_TRUE(says(complaint(config), {"offset_m to [-500002, -5000003, 0]"})) << name;
     config.offset_m = Vec3(-500'000, -5'000'000, 0);
-    const Box3 box_m = bounds_m(load_mesh(config));
-    EXPECT_LT((box_m.min() - Vec3(1.234, 2.345, 0.003)).norm(), 1e-6) << name;
-    EXPECT_LT((box_m.max() - Vec3(2.234, 3.345, 1.003)).norm(), 1e-6) << name;
+    const MeshFileConfig sdf = file(write(
+        "m.sdf",
+        fmt::format("<sdf><model name='m'><pose>0 0 -3 0 0 0</pose><link name='l'><visual name='v'>"
+                    "<pose>-500000 -5000000 3 0 0 0</pose><geometry><mesh><uri>{}</uri></mesh>"
+                    "</geometry></visual></link></model></sdf>",
+                    name)));
+    const MeshFileConfig urdf = file(
+        write("m.urdf", fmt::format("<robot name='r'><link name='l'><visual><origin xyz='-1000000 "
+                                    "-10000000 0'/><geometry><mesh filename='{}' scale='2 2 2'/>"
+                                    "</geometry></visual></link></robot>",
+                                    name)));
+    for (const auto& [placed, scale] : {std::pair(config, 1.0), {sdf, 1.0}, {urdf, 2.0}}) {
+      const Box3 box_m = bounds_m(load_mesh(placed));
+      EXPECT_LT((box_m.min() / scale - Vec3(1.234, 2.345, 0.003)).norm(), 1e-6) << placed.path;
+      EXPECT_LT((box_m.max() / scale - Vec3(2.234, 3.345, 1.003)).norm(), 1e-6) << placed.path;
+    }
   }
 }
 
