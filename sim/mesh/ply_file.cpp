@@ -185,20 +185,25 @@ PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>
   return out;
 }
 
-std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3& offset_m) {
+std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3& offset_m,
+                                   std::vector<std::string>& warnings) {
   PlyFile ply(path);
   std::vector<Vec3f> points;
-  for (const PlyElement& element : ply.elements()) {
+  bool is_read_out = true;
+  const std::vector<PlyElement>& all = ply.elements();
+  for (const PlyElement& element : all) {
     const bool is_vertices = element.name == "vertex" && !element.properties.empty();
     const Columns xyz = is_vertices ? xyz_of(ply, element) : Columns{};
     if (is_vertices) points.reserve(ply.most_items(element));
     ply.for_each_item(element, [&](const PlyItem& item) {
       if (is_vertices) points.push_back((position_of(item, xyz) + offset_m).cast<float>());
     });
-    if (is_vertices && !ply.is_free()) break;
+    if (!is_vertices || ply.is_free()) continue;
+    is_read_out = std::all_of(&element + 1, all.data() + all.size(),
+                              [](const PlyElement& later) { return later.count == 0; });
+    break;
   }
-  std::vector<std::string> ignored;
-  if (ply.is_free()) ply.warn_of_rest(ignored);
+  if (is_read_out) ply.warn_of_rest(warnings);
   return points;
 }
 

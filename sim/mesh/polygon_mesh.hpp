@@ -53,9 +53,10 @@ PolygonMesh read_obj_text(const std::filesystem::path& path, std::string_view ob
 /// BadInput naming what is wrong with a file that is no PLY, ends too early, lacks a coordinate,
 /// has words left over in a row or holds what is no number where one is needed.
 PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings);
-/// The vertices alone, moved by the offset before they are rounded. Reads no further.
-std::vector<Vec3f> read_ply_points(const std::filesystem::path& path,
-                                   const Vec3& offset_m = Vec3::Zero());
+/// The vertices alone, moved by the offset before they are rounded. Reads no further, but warns of
+/// what follows them where nothing should.
+std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3& offset_m,
+                                   std::vector<std::string>& warnings);
 
 /// Cuts a polygon of n corners into n - 2 triangles of the same sense, in the plane of its Newell
 /// normal, by clipping ears from its second corner on: a convex polygon becomes a fan around its

@@ -31,8 +31,12 @@ void CloudPoints::left_out(std::uint64_t count, const std::string& what) {
 std::vector<Vec3f> read_cloud(const std::filesystem::path& path, const Vec3& offset_m,
                               std::vector<std::string>* warnings) {
   const std::string extension = extension_of(path);
-  if (extension == ".ply") return read_ply_points(path, offset_m);
+  CloudPoints points{.path = path, .offset_m = offset_m};
   const auto reader = [&]() -> void (*)(CloudPoints&) {
+    if (extension == ".ply") {
+      return
+          [](CloudPoints& to) { to.points_m = read_ply_points(to.path, to.offset_m, to.warnings); };
+    }
     if (extension == ".pcd") return read_pcd_cloud;
     if (extension == ".las" || extension == ".laz") return read_las_cloud;
     for (const char* text : {".xyz", ".pts", ".txt", ".asc", ".csv", ".xyzn", ".xyzrgb"}) {
@@ -43,7 +47,6 @@ std::vector<Vec3f> read_cloud(const std::filesystem::path& path, const Vec3& off
                     "file; CloudCompare turns others into .ply",
                     path.string()));
   }();
-  CloudPoints points{.path = path, .offset_m = offset_m};
   reader(points);
   if (warnings != nullptr) {
     warnings->insert(warnings->end(), points.warnings.begin(), points.warnings.end());

@@ -33,7 +33,8 @@ void read_text_cloud(CloudPoints& to);
 /// PCD: ascii, binary, binary_compressed. Points that are not finite are what an organised cloud
 /// has where nothing returned: they are left out, with a warning.
 void read_pcd_cloud(CloudPoints& to);
-/// LAS 1.0 to 1.4, without its compressed kind.
+/// LAS 1.0 to 1.4, without its compressed kind. Points beyond those announced are left out, with a
+/// warning.
 void read_las_cloud(CloudPoints& to);
 
 }  // namespace gnbv

@@ -32,6 +32,17 @@ void read_las_cloud(CloudPoints& to) {
   if (held < points) {
     to.fail(fmt::format("ends after {} of the {} points that its header announces", held, points));
   }
+  // what may follow the points since 1.3: wave forms, and since 1.4 more records
+  const bool has_wave_forms = at(24, std::uint8_t{}) == 1 && at(25, std::uint8_t{}) >= 3;
+  std::uint64_t end = bytes.size();
+  const auto end_at = [&](std::uint64_t offset) {
+    if (offset >= first + points * stride) end = std::min(end, offset);
+  };
+  if (has_wave_forms && bytes.size() >= kHeader + 8) end_at(at(227, std::uint64_t{}));
+  if (has_wide_count) end_at(at(235, std::uint64_t{}));
+  if (first <= end) {
+    to.left_out((end - first) / stride - points, "points after those that its header announces");
+  }
   to.points_m.reserve(points);
   for (std::uint64_t i = 0; i < points; ++i) {
     Vec3 p_m;

@@ -73,6 +73,11 @@ TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
               "element face 0\nproperty list uchar int vertex_indices\nend_header\n" +
                   labelled);
   EXPECT_EQ(read_cloud(between), kPoints);
+  std::vector<std::string> warnings;  // more than the header says
+  EXPECT_EQ(read_cloud(written(temp, "more.ply", read_file(between) + labelled), {}, &warnings),
+            kPoints);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("bytes after all that its header announces"), std::string::npos);
   EXPECT_EQ(read_cloud(written(temp, "d.xyz", "# x y z\n\n" + text)), kPoints);
   EXPECT_EQ(read_cloud(
                 written(temp, "m.xyz",

@@ -153,6 +153,9 @@ TEST_F(CloudFormats, LasKeepsItsMillimetresBesideTheOffsetOfAMapGrid) {
     ASSERT_EQ(points.size(), 2U);
     EXPECT_LT((points[0] - Vec3f(0.001F, -0.002F, 0.003F)).norm(), 1e-6F);
     EXPECT_LT((points[1] - Vec3f(40.001F, 2000.0F, -0.001F)).norm(), 1e-4F);
+    points_of("a.las", whole + whole);
+    ASSERT_EQ(warnings_.size(), 1U);
+    EXPECT_NE(warnings_[0].find("points after those that its header"), std::string::npos);
     EXPECT_EQ(complaint_of("a.las", whole.substr(0, whole.size() - 1)),
               "a.las: ends after 1 of the 2 points that its header announces");
     for (std::size_t size = 0; size < whole.size(); ++size) {
