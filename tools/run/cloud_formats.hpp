@@ -26,7 +26,8 @@ struct CloudPoints {
 };
 
 /// Rows of numbers between blanks, commas or semicolons: the first three, or those under x, y and z
-/// where the first row names its columns. A row of one whole number before them says how many
+/// where the first row names its columns. A comma parts nothing in a row with semicolons or tabs,
+/// and a decimal comma is refused. A row of one whole number before them says how many
 /// follow (PTS, which may hold several such blocks). Empty rows and those that begin with #, // or
 /// % are none.
 void read_text_cloud(CloudPoints& to);

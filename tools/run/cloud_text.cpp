@@ -15,30 +15,46 @@
 namespace gnbv {
 namespace {
 
-/// Whether a line is three numbers with a decimal comma each, which commas between numbers would
-/// be taken for.
+/// Whether one of a line's first three words is a number with a decimal comma, though blanks alone
+/// part it from the next: commas between numbers would be taken for one.
 bool has_decimal_commas(std::string_view line) {
-  for (int i = 0; i < 3; ++i) {
+  std::string_view before = take_word(line);
+  for (int i = 0; i < 2; ++i) {
     const std::string_view word = take_word(line);
-    const std::size_t comma = word.find(',');
-    const bool is_between_digits = comma != word.npos && comma > 0 && comma + 1 < word.size();
-    if (!is_between_digits || word.find_first_of(",;", comma + 1) != word.npos) return false;
+    const auto commas = [](std::string_view of) { return std::count(of.begin(), of.end(), ','); };
+    if (word.empty() || commas(before) > 1) return false;
+    const bool are_parted = before.ends_with(',') || word.starts_with(',');
+    if (!are_parted && (commas(before) == 1 || commas(word) == 1)) return true;
+    before = word;
   }
-  return true;
+  return false;
 }
 
-/// What stands between blanks, or between commas or semicolons: there a field may be empty.
-void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
-  constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kCommasAndBlanks = ", ";
+
+/// What parts the fields of a line: commas only where it has neither semicolons nor tabs.
+std::string_view separators_of(std::string_view line, bool may_hold_blanks) {
+  if (line.find(';') != line.npos) return ";";
+  if (line.find('\t') != line.npos) return may_hold_blanks ? "\t" : " \t";
+  return may_hold_blanks && line.find(',') != line.npos ? "," : kCommasAndBlanks;
+}
+
+/// What stands between blanks, or between other separators, the first of these: there a field may
+/// be empty.
+void split_fields(std::string_view line, std::string_view separators,
+                  std::vector<std::string_view>& fields) {
+  const std::string_view blanks = separators == "\t" ? " " : " \t";
   const auto skip_blanks = [&] {
-    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
   };
   fields.clear();
   for (skip_blanks(); !line.empty(); skip_blanks()) {
-    fields.push_back(line.substr(0, line.find_first_of(" \t\r,;")));
-    line.remove_prefix(fields.back().size());
+    std::string_view field = line.substr(0, line.find_first_of(separators));
+    line.remove_prefix(field.size());
+    field = field.substr(0, field.find_last_not_of(blanks) + 1);
+    fields.push_back(field);
     skip_blanks();
-    if (line.starts_with(',') || line.starts_with(';')) line.remove_prefix(1);
+    if (line.starts_with(separators[0])) line.remove_prefix(1);
   }
 }
 
@@ -65,17 +81,28 @@ class TextCloud {
   }
 
   void take_row() {
-    if (has_decimal_commas(line_)) fail_in_row("has decimal commas: write decimal points");
-    split_fields(line_, fields_);
-    if (takes_count() || (is_first_ && takes_names())) return;
+    if (is_first_ && (takes_names(true) || takes_names(false))) return;
+    // rows may be parted in another way than their names
+    const bool is_as_names = is_named_ && line_.find_first_of(separators_) != line_.npos;
+    const std::string_view separators = is_as_names ? separators_ : separators_of(line_, false);
+    const std::string_view commas = "has decimal commas: write decimal points";
+    if (separators == kCommasAndBlanks && has_decimal_commas(line_)) fail_in_row(commas);
+    split_fields(line_, separators, fields_);
+    if (takes_count()) return;
+    if (is_named_ && fields_.size() > names_) {
+      fail_in_row(fmt::format("has {} fields under {} names", fields_.size(), names_));
+    }
     Vec3 p_m;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t column = columns_[axis];
       const auto value =
           column < fields_.size() ? read_decimal(fields_[column]) : std::optional<double>();
       if (!value) {
-        fail_in_row(is_named_ ? "has no number under x, y or z"
-                              : "does not begin with three numbers");
+        const bool has_comma =
+            column < fields_.size() && fields_[column].find(',') != std::string_view::npos;
+        fail_in_row(has_comma   ? commas
+                    : is_named_ ? "has no number under x, y or z"
+                                : "does not begin with three numbers");
       }
       p_m[static_cast<Eigen::Index>(axis)] = *value;
     }
@@ -100,7 +127,9 @@ class TextCloud {
     return true;
   }
 
-  bool takes_names() {
+  bool takes_names(bool may_hold_blanks) {
+    separators_ = separators_of(line_, may_hold_blanks);
+    split_fields(line_, separators_, fields_);
     if (read_decimal(fields_.front())) return false;
     constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
     std::array<std::size_t, 3> columns{};
@@ -113,6 +142,7 @@ class TextCloud {
       columns[axis] = static_cast<std::size_t>(at - fields_.begin());
     }
     columns_ = columns;
+    names_ = fields_.size();
     return is_named_ = true;
   }
 
@@ -130,6 +160,8 @@ class TextCloud {
   std::array<std::size_t, 3> columns_ = {0, 1, 2};
   bool is_first_ = true;  // no row yet
   bool is_named_ = false;
+  std::string_view separators_;  // of the names
+  std::size_t names_ = 0;
   std::optional<std::uint64_t> announced_;
   std::size_t announced_at_ = 0;  // points before the block
 };

@@ -105,11 +105,21 @@ TEST_F(CloudFormats, TextsOfManyPrograms) {
   EXPECT_EQ(points_of("a.pts", "1\r\n1 2 3 -1024 9 9 9\r\n2\n-4.5 0 1e-3 7\n0.1 7 -8 7\n"),
             kPoints);
   EXPECT_EQ(points_of("a.csv", "\"id\",\"Y\", X,Z\n1,2,1,3\n2,0,-4.5,1e-3\n3,7,0.1,-8\n"), kPoints);
+  EXPECT_EQ(points_of("a.csv", "the note\tx\ty\tz\n1,5 m\t1\t2\t3\n\t-4.5\t0\t1e-3\n\t0.1\t7\t-8"),
+            kPoints);
+  EXPECT_EQ(points_of("a.csv", "1, 2,3\n-4.5 ,0 ,1e-3 7,5\n0.1,7,-8 9"), kPoints);
 }
 
 TEST_F(CloudFormats, TextsThatMissSomethingAreNamedWithTheirLine) {
   EXPECT_EQ(complaint_of("a.csv", "id,Y,X,Z\n1,2,1,3\n3,,0.1,-8\n"),
             "a.csv:3: '3,,0.1,-8' has no number under x, y or z");
+  const std::string commas = "' has decimal commas: write decimal points";
+  for (const char* row : {"2,912;1,5;3,1", "2,5\t1,5\t3,1", "1,5 2,5 3", "1 2,5 3"}) {
+    EXPECT_EQ(complaint_of("a.csv", row), fmt::format("a.csv:1: '{}{}", row, commas));
+  }
+  EXPECT_EQ(complaint_of("a.csv", "x;y;z\n2,912;1;3\n"), "a.csv:2: '2,912;1;3" + commas);
+  EXPECT_EQ(complaint_of("a.csv", "x,y,z\n2,9,1,0,3,0\n"),
+            "a.csv:2: '2,9,1,0,3,0' has 6 fields under 3 names");
   EXPECT_EQ(complaint_of("a.xyz", "1,,2,3\n"),
             "a.xyz:1: '1,,2,3' does not begin with three numbers");
   EXPECT_EQ(complaint_of("a.txt", "east north up\n1 2 3\n"),
