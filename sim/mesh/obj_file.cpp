@@ -126,9 +126,12 @@ class ObjReader {
 
  private:
   void add_statement(std::string_view line) {
-    if (has_control_bytes(line)) return drop_line();
     split(line, words_);
     if (words_.empty()) return;
+    if (has_control_bytes(line)) {
+      if (words_[0].starts_with('f')) ++broken_faces_;
+      return drop_line();
+    }
     const std::string_view keyword = words_[0];
     const Words values = Words(words_).subspan(1);
     if (keyword == "v") return add_vertex(values);

@@ -57,9 +57,9 @@ Scored score_file(ScoreOptions options, int threads) {
   const Vec3 offset_m = d.empty() ? Vec3::Zero() : Vec3(d[0], d[1], d[2]);
   std::vector<std::string> warnings;
   const std::vector<Vec3f> points = read_cloud(options.target, offset_m, &warnings);
-  for (const std::string& warning : warnings) say(warning);
   const Scored scored = score_any_cloud(options.target, points, resolve_scenario(options.scenario),
-                                        options.wish, threads);
+                                        options.wish, threads, warnings);
+  for (const std::string& warning : warnings) say(warning);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
     say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "

@@ -57,11 +57,6 @@ double smallest_voxel_m(const Scenario& scenario, const ScoreWish& wish) {
   return smallest_m;
 }
 
-World world_of(const Scenario& scenario) {
-  std::vector<std::string> warnings;  // the mission told them
-  return load_world_anywhere(scenario, warnings);
-}
-
 /// Files of two runs in one directory would score as neither.
 void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<const Vec3f> profile,
                    std::size_t views) {
@@ -91,8 +86,9 @@ void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<cons
 }  // namespace
 
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                       const Scenario& scenario, const ScoreWish& wish, int threads) {
-  const World world = world_of(scenario);
+                       const Scenario& scenario, const ScoreWish& wish, int threads,
+                       std::vector<std::string>& warnings) {
+  const World world = load_world_anywhere(scenario, warnings);
   const RayScene scene(world);
   const std::vector<Vec3f> points_m =
       scorable_points(name, cloud_world_m, scenario.planner.floor_z_m, scene,
@@ -125,7 +121,8 @@ Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
                           .views = view_marks(scenario, views)};
   need_matching(run, cloud, profile, *summary.iterations);
   need_views_of_summary(run / kIterationsFile, summary, views);
-  const World world = world_of(scenario);
+  std::vector<std::string> warnings;  // the mission told them
+  const World world = load_world_anywhere(scenario, warnings);
   need_same_inputs(run, world_inputs(scenario, world),
                    fmt::format("its score would be of another structure; `gnbv score {} --mesh "
                                "FILE` scores the cloud against any",

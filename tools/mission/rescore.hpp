@@ -34,9 +34,11 @@ struct Scored {
 /// Any cloud against the scenario's structure, wherever that lies, without its points below the
 /// floor. Of a box: voxels count whose centres lie in it, and for precision and density the points
 /// in it. Throws BadInput when there is nothing to measure in the box and, beginning with `name`,
-/// for a cloud that cannot be scored (bench/score/cloud_faults.hpp).
+/// for a cloud that cannot be scored (bench/score/cloud_faults.hpp). Appends to `warnings` what the
+/// structure's files left out.
 Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_world_m,
-                       const Scenario& scenario, const ScoreWish& wish, int threads);
+                       const Scenario& scenario, const ScoreWish& wish, int threads,
+                       std::vector<std::string>& warnings);
 
 /// Scores cloud.ply, profile.ply and iterations.csv by scenario.yaml: bit for bit what the run
 /// itself found. Throws BadInput naming the file that is missing or does not fit the others.

@@ -149,6 +149,8 @@ TEST_F(MeshFile, MoreThanAHundredthOfTheFacesLostIsRefusedUnlessAskedFor) {
                 "allows: 1 faces of vertices that do not exist left out, the first in "
                 "line 4");
   EXPECT_EQ(load_mesh(forgiven(path)).faces.size(), 98U);
+  EXPECT_TRUE(says(complaint(file(write("c.obj", replaced(text, "f 1 2 9", "f 1 \x01 3")))),
+                   {"1 faces of 99 could not be used"}));
 }
 
 TEST_F(MeshFile, MillimetresBesideTheOffsetOfAMapGridAreKept) {
