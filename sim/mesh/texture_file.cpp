@@ -25,7 +25,25 @@ void need_size(std::size_t width_px, std::size_t height_px, std::size_t most_px)
                              height_px, TextureFiles::kMostPixels));
 }
 
-Image read_png(std::string_view bytes, std::size_t most_px) {
+/// Without what it says of its colours: they are sRGB, as glTF 2.0 (3.8.4) has it.
+std::string without_colour_space(std::string_view png) {
+  constexpr std::size_t kSignature = 8, kAround = 12;  // bytes; of a chunk, besides its data
+  std::string out(png.substr(0, kSignature));
+  png.remove_prefix(out.size());
+  while (png.size() >= kAround) {
+    std::size_t size = kAround;
+    for (std::size_t i = 0; i < 4; ++i) {
+      size += std::size_t{static_cast<unsigned char>(png[i])} << (24 - 8 * i);
+    }
+    const std::string_view chunk = png.substr(0, size), kind = chunk.substr(4, 4);
+    if (kind != "gAMA" && kind != "cHRM" && kind != "iCCP" && kind != "sRGB") out += chunk;
+    png.remove_prefix(chunk.size());
+  }
+  return out.append(png);
+}
+
+Image read_png(std::string_view file, std::size_t most_px) {
+  const std::string bytes = without_colour_space(file);
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) {
@@ -33,6 +51,7 @@ Image read_png(std::string_view bytes, std::size_t most_px) {
   }
   const std::unique_ptr<png_image, void (*)(png_imagep)> freed(&header, png_image_free);
   need_size(header.width, header.height, most_px);
+  header.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   header.format = PNG_FORMAT_RGBA;  // what lies under the alpha stays: libpng would blend it
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(header));
   if (png_image_finish_read(&header, nullptr, rgba.data(), 0, nullptr) == 0) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "sim/core/file.hpp"
+#include "sim/mesh/texture_file.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 
 namespace gnbv {
@@ -406,6 +407,17 @@ TEST_F(PictureFile, ColladaPolygonsWithHolesKeepTheirCoordinates) {
   holed = replaced(replaced(holed, "#pa\" count=\"4\"", "#pa\" count=\"8\""), "0 0 1 0 1 1 0 1<",
                    "0 0 1 0 1 1 0 1 .4 .4 .6 .4 .6 .6 .4 .6<");
   expect_upright(read("a.dae", holed));
+}
+
+TEST_F(PictureFile, APngIsInSrgbWhateverItsDepthAndItsGamma) {
+  write_png(GreyImage16{1, 1, {0x8080}}, folder_ / "grey.png");
+  const std::string png = read_file(folder_ / "grey.png");
+  const std::vector<std::uint8_t> grey = {0x80, 0x80, 0x80};
+  EXPECT_EQ(read_picture(png, 1).rgb, grey);
+  constexpr std::size_t kHeader = 33;  // bytes, signature and IHDR
+  std::string with_gamma = png;
+  with_gamma.insert(kHeader, std::string("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16));
+  EXPECT_EQ(read_picture(with_gamma, 1).rgb, grey);
 }
 
 TEST_F(PictureFile, WhatIsWrongWithAPictureIsAWarningAndThePlainColour) {
