@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "sim/mesh/hole_bridges.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 
 namespace gnbv {
@@ -183,6 +184,38 @@ TEST(Triangulated, PolygonsThatTouchThemselvesAreCoveredFromEveryCorner) {
     for (std::size_t i = 0; i < outline.size(); ++i) {
       std::rotate(outline.begin(), outline.begin() + 1, outline.end());
       expect_cut_exactly(outline, Eigen::Quaterniond::Identity());
+    }
+  }
+}
+
+TEST(Triangulated, HolesAreLeftOutHoweverManyThereAre) {
+  std::mt19937 random(3);
+  for (const int side : {1, 2, 5, 16}) {
+    for (const bool are_random : {false, true}) {
+      std::vector<Vec3> points;
+      const auto ring_of = [&](const Outline& outline) {
+        HoleBridges::Ring ring;
+        for (const Vec2& p : outline) {
+          ring.push_back(static_cast<std::uint32_t>(points.size()));
+          points.emplace_back(p.x(), p.y(), 0.0);
+        }
+        return ring;
+      };
+      const double width = 10.0 * side;
+      const HoleBridges::Ring outer = ring_of({{0, 0}, {width, 0}, {width, width}, {0, width}});
+      std::vector<HoleBridges::Ring> holes;
+      for (int i = 0; i < side * side; ++i) {
+        const double x = 10 * (i % side) + 5.0, y = 10 * (i / side) + 5.0;
+        Outline hole = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};  // in rows: bridges lie on one line
+        if (are_random) hole = star(random, 7);
+        for (Vec2& p : hole) p += Vec2(x, y);
+        holes.push_back(ring_of(hole));
+      }
+      Outline joined;
+      for (const std::uint32_t i : HoleBridges(points, outer).joined(outer, holes)) {
+        joined.emplace_back(points[i].x(), points[i].y());
+      }
+      expect_cut_exactly(joined, Eigen::Quaterniond::Identity());
     }
   }
 }
