@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -68,6 +69,15 @@ void transform(TriangleMesh& mesh, const Matrix4& T) {
   if (T.topLeftCorner<3, 3>().determinant() >= 0.0) return;
   for (auto& face : mesh.faces) std::swap(face[1], face[2]);
   for (auto& looks : mesh.face_looks) std::swap(looks[1], looks[2]);
+}
+
+/// 1.10 comes after 1.9; without a version, after all.
+std::array<double, 2> version_of(const XmlElement& sdf) {
+  constexpr double kLast = std::numeric_limits<double>::infinity();
+  const std::string text = trimmed(sdf.attribute("version").value_or(""));
+  const std::size_t point = std::min(text.find('.'), text.size());
+  return {read_decimal(text.substr(0, point)).value_or(kLast),
+          read_decimal(text.substr(std::min(point + 1, text.size()))).value_or(0.0)};
 }
 
 /// An attribute of URDF or a child of SDF.
@@ -288,8 +298,11 @@ fs::path model_file_of(const fs::path& path) {
   if (fs::exists(path / "model.config", ignored)) {
     std::vector<std::string> warnings;
     const XmlTree config(path / "model.config", warnings);
-    const auto versions = config.root().children("sdf");  // the last one is the newest
-    if (!versions.empty()) return path / trimmed(versions.back().text());
+    const auto versions = config.root().children("sdf");
+    const auto newest = std::max_element(
+        versions.rbegin(), versions.rend(),
+        [](const XmlElement& a, const XmlElement& b) { return version_of(a) < version_of(b); });
+    if (newest != versions.rend()) return path / trimmed(newest->text());
   }
   if (fs::exists(path / "model.sdf", ignored)) return path / "model.sdf";
   throw BadInput(

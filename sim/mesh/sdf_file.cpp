@@ -49,7 +49,8 @@ std::string base_of(const Place& of, std::string fallback) {
   return name.empty() ? std::move(fallback) : name;
 }
 
-/// The frames of one model: links, joints, nested models and <frame>s by name, in its own.
+/// The frames of one model: links, joints, nested models and <frame>s by name, in its own; of an
+/// <include> that says its name and pose, too.
 class ModelFrames {
  public:
   ModelFrames(const fs::path& document, const XmlElement& model) : document_(document) {
@@ -58,10 +59,17 @@ class ModelFrames {
       std::string base = "__model__";
       if (kind == "joint") base = trimmed(element.child("child").text());
       if (kind == "frame") base = element.attribute("attached_to").value_or(base);
-      const bool is_frame = kind == "link" || kind == "joint" || kind == "frame" || kind == "model";
+      const bool is_include = kind == "include" && element.child("name") && element.child("pose");
+      const bool is_frame =
+          is_include || kind == "link" || kind == "joint" || kind == "frame" || kind == "model";
       if (!is_frame) continue;
-      frames_[element.attribute("name").value_or("")] = {element,
-                                                         base_of({document, element}, base)};
+      const std::string name = is_include ? trimmed(element.child("name").text())
+                                          : element.attribute("name").value_or("");
+      base = base_of({document, element}, base);
+      const auto [entry, is_new] = frames_.try_emplace(name, element, base);
+      // a joint of SDF 1.6 may have its link's name, which means the link
+      const bool is_of_joint = entry->second.first.name() == "joint";
+      if (!is_new && kind == "link" && is_of_joint) entry->second = {element, base};
     }
   }
 
@@ -69,7 +77,10 @@ class ModelFrames {
     if (name == "__model__" || name.empty()) return Matrix4::Identity();
     const auto found = frames_.find(name);
     if (found == frames_.end()) {
-      fail({document_, asked_by}, fmt::format("the frame '{}' is not in this model", name));
+      fail({document_, asked_by},
+           fmt::format("the frame '{}' is not in this model, nor does an <include> with a <pose> "
+                       "<name> it",
+                       name));
     }
     constexpr int kMostDeep = 200;
     if (deep > kMostDeep) {
@@ -80,10 +91,13 @@ class ModelFrames {
     const auto& [element, base] = found->second;
     return T_model_frame(base, element, deep + 1) * pose_of({document_, element});
   }
-  /// Of an element in the model whose pose counts from `fallback` where it names nothing.
-  Matrix4 T_model_of(const XmlElement& element, const std::string& fallback) const {
-    return T_model_frame(base_of({document_, element}, fallback), element) *
-           pose_of({document_, element});
+  /// Of an element in the model whose pose counts from the model, or from an element that it is in,
+  /// where it names nothing.
+  Matrix4 T_model_of(const XmlElement& element, const XmlElement& parent = {}) const {
+    const std::string base = base_of({document_, element}, "");
+    const Matrix4 T_model_base =
+        parent && base.empty() ? T_model_of(parent) : T_model_frame(base, element);
+    return T_model_base * pose_of({document_, element});
   }
 
  private:
@@ -133,9 +147,9 @@ class SdfReader {
       }
       count({document, element});
       ++open_;
-      const Matrix4 T = T_world * (T_placed != nullptr && kind == "model"
-                                       ? *T_placed
-                                       : frames.T_model_of(element, "__model__"));
+      const Matrix4 T =
+          T_world *
+          (T_placed != nullptr && kind == "model" ? *T_placed : frames.T_model_of(element));
       kind == "model" ? add_model(document, element, T) : add_included(document, element, T);
       --open_;
     }
@@ -151,9 +165,8 @@ class SdfReader {
   void add_model(const fs::path& document, const XmlElement& model, const Matrix4& T_world_model) {
     const ModelFrames frames(document, model);
     for (const XmlElement& link : model.children("link")) {
-      const std::string name = link.attribute("name").value_or("");
       for (const XmlElement& visual : link.children("visual")) {
-        to_.add(document, visual.child("geometry"), T_world_model * frames.T_model_of(visual, name),
+        to_.add(document, visual.child("geometry"), T_world_model * frames.T_model_of(visual, link),
                 look_of(document, visual));
       }
     }

@@ -25,7 +25,9 @@ class UrdfReader {
     });
     for (const XmlElement& material : robot.children("material")) look_of(material);
     for (const XmlElement& link : robot.children("link")) {
-      links_.emplace(link.attribute("name").value_or(""), Link{.element = link});
+      const std::string name = link.attribute("name").value_or("");
+      const bool is_new = links_.emplace(name, Link{.element = link}).second;
+      if (!is_new) fail_at(path_, link, fmt::format("a second link of the name '{}'", name));
     }
     for (const XmlElement& joint : robot.children("joint")) hang(joint);
     for (auto& [name, link] : links_) add(link);

@@ -66,6 +66,36 @@ TEST_F(ModelFile, PosesOfAnSdfFollowWhatTheyAreRelativeTo) {
   EXPECT_TRUE(warnings_.empty());
 }
 
+TEST_F(ModelFile, NamesAreThoseOfTheRightElement) {
+  write("part.sdf", sdf("<model name='part'><link name='l'>" + visual("") + "</link></model>"));
+  const auto at_x = [](const std::string& kind, int x_m) {
+    return fmt::format("<{0} name='n'><pose>{1} 0 0 0 0 0</pose>{2}</{0}>", kind, x_m,
+                       kind == "link" ? visual("") : "<child>n</child>");
+  };
+  for (const std::string& pair :
+       {at_x("link", 1) + at_x("joint", 7), at_x("joint", 7) + at_x("link", 1)}) {
+    expect_places(load("m.sdf", sdf("<model name='m'>" + pair + "<link name='o'>" +
+                                    visual("<pose relative_to='n'/>") + "</link></model>")),
+                  {{1, 0, 0}, {1, 0, 0}});
+  }
+  expect_places(
+      load("m.sdf", sdf("<model name='m'>" + at_x("link", 1) + at_x("link", 9) + "</model>")),
+      {{1, 0, 0}, {9, 0, 0}});
+  const std::string include = "<include><uri>part.sdf</uri>";
+  expect_places(load("m.sdf", sdf("<model name='m'>" + include +
+                                  "<name>x</name><pose>5 0 0 0 0 0</pose></include>" + include +
+                                  "<pose relative_to='x'>0 5 0 0 0 0</pose></include></model>")),
+                {{5, 0, 0}, {5, 5, 0}});
+  EXPECT_TRUE(
+      test::says(complaint_of("r.urdf", "<robot><link name='a'/>\n<link name='a'/></robot>"),
+                 {"r.urdf:2: a second link of the name 'a'"}));
+  std::filesystem::create_directories(folder_ / "m");
+  write("m/new.sdf", sdf("<model name='m'>" + at_x("link", 3) + "</model>"));
+  write("m/model.config",
+        "<model><sdf version='1.10'>new.sdf</sdf><sdf version='1.9'>old</sdf></model>");
+  expect_places(load_mesh(test::file(folder_ / "m")), {{3, 0, 0}});
+}
+
 TEST_F(ModelFile, IncludedModelsAndWorldsStandWhereTheyArePut) {
   std::filesystem::create_directories(folder_ / "post" / "meshes");
   write_mesh(box_mesh(Box3(Vec3(0, 0, 0), Vec3(1, 1, 1))), folder_ / "post" / "meshes" / "a b.ply");
