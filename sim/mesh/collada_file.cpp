@@ -180,8 +180,7 @@ class ColladaReader {
 
   void read_shape(const XmlElement& geometry,
                   std::vector<std::pair<std::string, std::size_t>>& to) {
-    const bool wants_uvs = keeps_uvs_ || bool(file_.root().child("library_images"));
-    ColladaShape shape = collada_shape(file_, geometry, wants_uvs);
+    ColladaShape shape = collada_shape(file_, geometry, keeps_uvs_ || file_.has_images());
     faults_.insert(shape.faults.begin(), shape.faults.end());
     impossible_ += shape.impossible_faces;
     unread_ += shape.unread;

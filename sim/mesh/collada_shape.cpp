@@ -91,9 +91,10 @@ std::vector<Vec3> positions_of(const ColladaFile& file, const XmlElement& source
 /// One <triangles>, <polylist>, ...: its corners and what they make up.
 class ColladaPrimitive {
  public:
-  ColladaPrimitive(const ColladaFile& file, const XmlElement& element,
-                   const XmlElement& position_source, bool wants_uvs, ColladaShape& shape)
+  ColladaPrimitive(const ColladaFile& file, const XmlElement& element, const XmlElement& vertices,
+                   bool wants_uvs, ColladaShape& shape)
       : file_(file), element_(element), shape_(shape) {
+    std::vector<XmlElement> of_vertices;  // more than positions
     for (const XmlElement& input : element.children("input")) {
       const double offset =
           read_decimal(trimmed(input.attribute("offset").value_or("0"))).value_or(-1.0);
@@ -103,10 +104,17 @@ class ColladaPrimitive {
       if (semantic == "VERTEX" || (semantic == "POSITION" && !has_corners_)) {
         offset_ = static_cast<std::size_t>(offset);
         has_corners_ = true;
-        source_ = semantic == "POSITION" ? file.named_by(input, "source") : position_source;
+        const bool is_at_once = semantic == "POSITION";
+        of_vertices = is_at_once ? std::vector{input} : vertices.children("input");
+        for (const XmlElement& of : of_vertices) {
+          if (of.attribute("semantic") == "POSITION") source_ = file.named_by(of, "source");
+        }
       } else if (semantic == "TEXCOORD" && wants_uvs) {
         add_uvs(input, static_cast<std::size_t>(offset));
       }
+    }
+    for (const XmlElement& of : of_vertices) {
+      if (of.attribute("semantic") == "TEXCOORD" && wants_uvs) add_uvs(of, offset_);
     }
     group_.material = element.attribute("material").value_or("");
   }
@@ -265,6 +273,7 @@ ColladaFile::ColladaFile(const std::filesystem::path& path, std::vector<std::str
   }
   tree_.for_each([&](const XmlElement& element) {
     if (auto id = element.attribute("id")) by_id_.try_emplace(*id, element);
+    has_images_ = has_images_ || element.name() == "image";
   });
 }
 
@@ -324,15 +333,11 @@ ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry, 
     if (kind == "spline" || kind == "brep") ++shape.unread;
     if (kind != "mesh" && kind != "convex_mesh") continue;
     if (body.attribute("convex_hull_of")) ++shape.unread;
-    XmlElement positions;
-    for (const XmlElement& input : body.child("vertices").children("input")) {
-      if (input.attribute("semantic") == "POSITION") positions = file.named_by(input, "source");
-    }
     for (const XmlElement& element : body.children()) {
       const std::string_view name = element.name();
       if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
           name == "trifans") {
-        ColladaPrimitive(file, element, positions, wants_uvs, shape).read();
+        ColladaPrimitive(file, element, body.child("vertices"), wants_uvs, shape).read();
       }
     }
   }

@@ -21,6 +21,8 @@ class ColladaFile {
   XmlElement by_id(std::string url) const;
   /// What an attribute (url, source, target) refers to, if it is in this file.
   XmlElement named_by(const XmlElement& from, const char* attribute) const;
+  /// Whether there is an <image>: in a library, or in an effect.
+  bool has_images() const { return has_images_; }
   /// The numbers in an element's text.
   std::vector<double> numbers(const XmlElement& element) const;
   /// The same in single precision: positions and matrices.
@@ -34,6 +36,7 @@ class ColladaFile {
   std::filesystem::path path_;
   XmlTree tree_;
   std::unordered_map<std::string, XmlElement> by_id_;
+  bool has_images_ = false;
 };
 
 /// read_decimal() of a word that may have the decimal comma of its writer's country.

@@ -34,28 +34,42 @@ Wrap wrap_of(std::size_t code) {
 
 }  // namespace
 
-std::vector<Material> GltfLooks::materials() {
-  std::vector<Material> out;
-  placings_.resize(file_.count("materials") + 1);
-  for (std::size_t i = 0; i < file_.count("materials"); ++i) {
-    const Json& from = file_.item("materials", i);
-    const Json& metal = object_in(from, "pbrMetallicRoughness");
-    const Json& gloss =
-        object_in(object_in(from, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    Material& to = out.emplace_back();
-    to.name = text_in(from, "name");
-    to.rgb = factor_of(metal, gloss);
-    const bool is_metal = metal.contains("baseColorTexture");
-    try {
-      read_texture(
-          is_metal ? object_in(metal, "baseColorTexture") : object_in(gloss, "diffuseTexture"), to,
-          placings_[i]);
-    } catch (const BadInput& error) {
-      faults_.insert(error.what());
-    }
+template <typename Do>
+void GltfLooks::attempt(const Do& step) {
+  try {
+    step();
+  } catch (const BadInput& error) {
+    faults_.insert(error.what());
   }
-  out.push_back({.name = std::string(kDefaultMaterial), .rgb = kWhite});
+}
+
+std::vector<Material> GltfLooks::materials() {
+  const Material unnamed = {.name = std::string(kDefaultMaterial), .rgb = kWhite};
+  std::size_t count = 0;
+  attempt([&] { count = file_.count("materials"); });
+  std::vector<Material> out(count + 1, unnamed);
+  placings_.resize(count + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    attempt([&] {
+      const Json& from = file_.item("materials", i);
+      const Json& metal = object_in(from, "pbrMetallicRoughness");
+      const Json& gloss =
+          object_in(object_in(from, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+      out[i].name = text_in(from, "name");
+      out[i].rgb = factor_of(metal, gloss);
+      const bool is_metal = metal.contains("baseColorTexture");
+      read_texture(
+          is_metal ? object_in(metal, "baseColorTexture") : object_in(gloss, "diffuseTexture"),
+          out[i], placings_[i]);
+    });
+  }
   return out;
+}
+
+std::size_t GltfLooks::material_of(const Json& primitive) {
+  std::size_t found = placings_.size() - 1;
+  attempt([&] { found = file_.index(primitive, "material", "materials").value_or(found); });
+  return found;
 }
 
 void GltfLooks::read_texture(const Json& info, Material& to, Placing& placing) {
@@ -104,14 +118,12 @@ std::vector<CornerLook> GltfLooks::of_vertices(const Json& attributes, std::size
                                                std::size_t vertices) {
   std::vector<CornerLook> out;
   const auto add = [&](const std::string& name, const auto& read) {
-    try {
+    attempt([&] {
       const auto accessor = file_.index(attributes, name.c_str(), "accessors");
       if (!accessor) return;
       out.resize(vertices);
       read(*accessor);
-    } catch (const BadInput& error) {
-      faults_.insert(error.what());
-    }
+    });
   };
   const Placing& placing = placings_[material];
   if (placing.is_used || keeps_uvs_) {

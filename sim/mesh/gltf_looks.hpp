@@ -18,6 +18,8 @@ class GltfLooks {
 
   /// Those of the file, and a last one for faces without a material.
   std::vector<Material> materials();
+  /// Of a primitive; the last one where it names none that is there. After materials().
+  std::size_t material_of(const Json& primitive);
 
   /// Of the vertices of a primitive of that material; empty where it has neither picture nor
   /// colours. After materials().
@@ -35,6 +37,9 @@ class GltfLooks {
     Eigen::Matrix<double, 2, 3> T = Eigen::Matrix<double, 2, 3>::Identity();
   };
 
+  /// Does it; what is wrong becomes a warning.
+  template <typename Do>
+  void attempt(const Do& step);
   void read_texture(const Json& info, Material& to, Placing& placing);
   Texture picture(std::size_t image, const std::array<Wrap, 2>& wrap);
   void add_uvs(std::size_t accessor, const Placing& placing, std::vector<CornerLook>& to);

@@ -165,8 +165,7 @@ class GltfReader {
       const bool is_shared = !skin && weights.empty();
       const auto [entry, is_new] = part_of_.try_emplace(
           {mesh_index, is_shared ? -1 : static_cast<long long>(node_index), i}, out_.parts.size());
-      const std::size_t material =
-          file_.index(primitive, "material", "materials").value_or(out_.materials.size() - 1);
+      const std::size_t material = looks_.material_of(primitive);
       if (is_new) add_part(primitive, weights, skin, material);
       // only joints place a skinned mesh
       for (const Matrix4& T : places) {

@@ -63,6 +63,12 @@ Matrix4 declare(const MeshFileConfig& config, const DeclaredAxes& declared, Mesh
   return T;
 }
 
+/// A message without the path that it begins with.
+std::string without_path(const std::string& path, const std::string& message) {
+  const std::string begin = path + ": ";
+  return message.starts_with(begin) ? message.substr(begin.size()) : message;
+}
+
 void read_polygons(const MeshFileConfig& config, bool is_obj, bool keeps_uvs,
                    MeshReading& reading) {
   const Matrix4 T_world_file = declare(config, {}, reading);
@@ -110,10 +116,18 @@ void read_links(const MeshFileConfig& config, const std::string& path, MeshReadi
   reading.files = std::move(model.files);
 }
 
-/// A message without the path that it begins with.
-std::string without_path(const std::string& path, const std::string& message) {
-  const std::string begin = path + ": ";
-  return message.starts_with(begin) ? message.substr(begin.size()) : message;
+/// Of materials whose picture is there, without all of its texture coordinates.
+std::size_t faces_without_coordinates(const TriangleMesh& mesh) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    if (!mesh.materials[material_of(mesh, i)].texture.image) continue;
+    const bool has_all = !mesh.face_looks.empty() &&
+                         std::ranges::all_of(mesh.face_looks[i], [](const CornerLook& look) {
+                           return look.uv.allFinite();
+                         });
+    if (!has_all) ++count;
+  }
+  return count;
 }
 
 }  // namespace
@@ -130,6 +144,11 @@ MeshReading read_mesh(const MeshFileConfig& config, bool keeps_uvs) {
     read_polygons(config, extension == ".obj", keeps_uvs, reading);
   } else {
     read_scene(config, extension, keeps_uvs, reading);
+  }
+  const std::size_t plain = is_model(path) ? 0 : faces_without_coordinates(reading.mesh);
+  if (plain > 0) {
+    reading.warnings.push_back(fmt::format(
+        "{}: {} faces lack texture coordinates, and show no picture", config.path, plain));
   }
   const auto& vertices = reading.mesh.vertices_m;
   const auto bad =

@@ -163,7 +163,21 @@ class ObjReader {
       }
       p[static_cast<Eigen::Index>(i)] = *value;
     }
+    add_colour(values);
     out_.vertices.push_back(p);
+  }
+
+  /// "v x y z r g b", as of MeshLab: sRGB in [0, 1]. A file has them of all its vertices or of
+  /// none.
+  void add_colour(Words values) {
+    if (values.size() < 6 || out_.vertex_rgb.size() != out_.vertices.size()) return;
+    std::uint32_t rgb = 0;
+    for (const std::string_view word : values.subspan(3, 3)) {
+      const double level = read_decimal(word).value_or(-1.0);
+      if (!(level >= 0.0 && level <= 1.0)) return;
+      rgb = rgb << 8U | static_cast<std::uint32_t>(std::lround(255.0 * level));
+    }
+    out_.vertex_rgb.push_back(rgb);
   }
 
   void add_uv(Words values) {
@@ -175,6 +189,13 @@ class ObjReader {
 
   /// Once all libraries are read.
   void add_looks() {
+    if (!out_.vertex_rgb.empty() &&
+        (materials_.has_library() || out_.vertex_rgb.size() != out_.vertices.size())) {
+      warnings_.push_back(fmt::format(
+          "{}: colours of vertices left out: {}", path_.string(),
+          materials_.has_library() ? "its materials have colours" : "not all of them have one"));
+      out_.vertex_rgb.clear();
+    }
     TextureFiles textures(path_);
     out_.materials = materials_.materials(textures, warnings_);
     textures.warn(warnings_);

@@ -31,6 +31,8 @@ class ObjMaterials {
   /// Whether texture coordinates are wanted, as far as can be said now.
   bool may_have_pictures() const { return has_pictures_ || !has_library_; }
 
+  bool has_library() const { return has_library_; }
+
   /// Those that faces use, once all is read. A picture is multiplied by Kd, but where that is
   /// black or not given.
   std::vector<Material> materials(TextureFiles& textures, std::vector<std::string>& warnings);

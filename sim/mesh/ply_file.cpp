@@ -154,6 +154,10 @@ std::size_t drop_impossible_faces(PolygonMesh& mesh, std::vector<std::uint32_t>&
 
 PolygonMesh read_ply(const std::filesystem::path& path, std::vector<std::string>& warnings) {
   PlyFile ply(path);
+  if (!ply.picture().empty()) {
+    warnings.push_back(fmt::format("{}: its picture {} is not read: of PLY, plain colours are",
+                                   ply.path(), ply.picture().substr(0, 100)));
+  }
   PolygonMesh out;
   std::vector<std::uint32_t> face_rgb;  // 0xrrggbb in sRGB
   const auto is_shape = [](const PlyElement& element) {

@@ -103,6 +103,9 @@ void PlyFile::read_header() {
   if (words.size() != 1 || words[0] != "ply") fail("is no PLY file: its first line is not 'ply'");
   while (next_header_line()) {
     split(line_, words);
+    if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") {
+      picture_ = joined(Words(words).subspan(2));
+    }
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       lines_.emplace(in());

@@ -71,6 +71,9 @@ class PlyFile {
     }
   }
 
+  /// What a comment names as its picture; empty without one.
+  const std::string& picture() const { return picture_; }
+
   /// Whether a row does not end with its line, so that only the end tells of words left over.
   bool is_free() const { return is_free_.value_or(false); }
 
@@ -116,6 +119,7 @@ class PlyFile {
   std::optional<std::istringstream> converted_;  // from UTF-16
   std::uint64_t bytes_ = 0;                      // of the file
   std::string line_;                             // of the header
+  std::string picture_;
   std::size_t header_lines_ = 0;
   bool ends_in_cr_ = false;          // its first line
   std::optional<bool> is_free_;      // a text, of rows that do not end with their lines

@@ -383,6 +383,16 @@ TEST_F(PictureFile, ColladaHasVGoingUpThroughEveryChain) {
     SCOPED_TRACE(to);
     expect_upright(read("a.dae", replaced(kDae, from, to)));
   }
+  const std::string image = "<image id=\"img\"><init_from>four.png</init_from></image>";
+  expect_upright(read("a.dae", replaced(replaced(kDae, image, ""), "<profile_COMMON>",
+                                        "<profile_COMMON>" + image)));
+  expect_upright(read("a.dae", replaced(replaced(replaced(kDae, "source=\"#p\"/></vertices>",
+                                                          "source=\"#p\"/><input "
+                                                          "semantic=\"TEXCOORD\" source=\"#t\"/>"
+                                                          "</vertices>"),
+                                                 "semantic=\"TEXCOORD\" source=\"#t\" offset",
+                                                 "semantic=\"NORMAL\" source=\"#t\" offset"),
+                                        "offset=\"1\" set=\"0\"", "offset=\"1\" set=\"5\"")));
   // of the first set where none is bound; a mirrored instance keeps its picture in place
   const std::string unbound = replaced(kDae, "semantic=\"UVSET0\" input", "semantic=\"U\" input");
   EXPECT_EQ(colour(read("a.dae", unbound).mesh, 0.5, 0.5), kBlue);
@@ -468,6 +478,9 @@ TEST_F(PictureFile, NoFaultOfLooksRefusesAShape) {
   write("square.bin", square.bytes);
   const std::string gltf = square.json();
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {R"("material": 0)", R"("material": 99)"},
+           {R"("material": 0)", R"("material": -1)"},
+           {R"("materials": [)", R"("materials": [null], "none": [)"},
            {R"("index": 0)", R"("index": 7)"},
            {R"("index": 0)", R"("index": "x")"},
            {R"("source": 0)", R"("source": 9)"},
@@ -484,6 +497,34 @@ TEST_F(PictureFile, NoFaultOfLooksRefusesAShape) {
            replaced(kDae, "#ta\" count=\"4\" stride=\"2\"", "#ta\" count=\"4\" stride=\"1\""));
   survives("a.dae", replaced(kDae, "source=\"#t\"", "source=\"#none\""));
   survives("a.dae", replaced(kDae, "<p>0 0 0 1 1 1", "<p>0 0 0 1 1 99"));
+}
+
+TEST_F(PictureFile, LooksThatNobodySeesAreAWarning) {
+  const auto expect_warning = [&](const MeshReading& reading, const std::string& what) {
+    ASSERT_EQ(reading.warnings.size(), 1U) << what;
+    EXPECT_THAT(reading.warnings[0], testing::HasSubstr(what));
+  };
+  const std::string lacking = " faces lack texture coordinates";
+  write("m.mtl", "newmtl m\nmap_Kd four.png\n");
+  expect_warning(read("a.obj", replaced(kObj, "f 1/1 2/2 3/3 4/4", "f 1 2 3 4")), "2" + lacking);
+  expect_warning(read("a.obj", replaced(kObj, "2/2", "2/9")), "1" + lacking);
+  GltfSquare square;
+  square.material = kTextured;
+  square.root = kFourPng;
+  write("square.bin", square.bytes);
+  expect_warning(read("a.gltf", square.json()), "2" + lacking);
+  write("n.mtl", "newmtl n\nKd 1 1 1\n");
+  const std::string vertices = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\n";
+  EXPECT_EQ(colour(read("a.obj", vertices + "f 1 2 3\n").mesh, 0.2, 0.2), kRed);
+  expect_warning(read("a.obj", "mtllib n.mtl\n" + vertices + "f 1 2 3\n"), "colours of vertices");
+  expect_warning(read("a.obj", vertices + "v 1 1 0\nf 1 2 3\n"), "colours of vertices");
+  expect_warning(
+      read(
+          "a.ply",
+          "ply\nformat ascii 1.0\ncomment TextureFile a b.png\nelement vertex 3\nproperty float x\n"
+          "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+          "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+      "its picture a b.png is not read");
 }
 
 TEST_F(PictureFile, LooksFollowTheirFaces) {
