@@ -58,7 +58,7 @@ class GltfReader {
     out_.files = file_.files();
     const auto& pictures = looks_.files();
     out_.files.insert(out_.files.end(), pictures.begin(), pictures.end());
-    out_.declared = {1.0, 'y'};
+    out_.declared = {1.0, 'y', true};
     return std::move(out_);
   }
 

@@ -105,7 +105,7 @@ void read_scene(const MeshFileConfig& config, const std::string& extension, bool
 }
 
 void read_links(const MeshFileConfig& config, const std::string& path, MeshReading& reading) {
-  MeshReading model = read_model(path, declare(config, {1.0, 'z'}, reading));
+  MeshReading model = read_model(path, declare(config, {1.0, 'z', true}, reading));
   if (model.mesh.faces.empty()) {
     throw BadInput(fmt::format("{}: holds no faces: no <visual> of it has any", path));
   }

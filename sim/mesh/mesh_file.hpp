@@ -28,6 +28,7 @@ struct MeshFileConfig {
 struct DeclaredAxes {
   std::optional<double> unit_m;
   std::optional<char> up_axis;  // x, y or z
+  bool is_law = false;          // of its format: no file of it may say otherwise
 };
 
 /// A mesh as its file holds it.

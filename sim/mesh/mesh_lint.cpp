@@ -121,6 +121,7 @@ std::optional<LikelyUp> likely_up_axis(const TriangleMesh& mesh, char up) {
   constexpr double kRounding = 1e-6;    // of the largest extent
   constexpr double kMinContact = 0.05;  // of the area
   constexpr double kDominance = 3.0;    // over the other axes
+  constexpr double kThin = 0.2;         // of the extent of what is taken for up
   Box3 box;
   double area = 0.0;
   std::vector<std::pair<Box3, double>> faces;
@@ -149,11 +150,14 @@ std::optional<LikelyUp> likely_up_axis(const TriangleMesh& mesh, char up) {
   std::optional<LikelyUp> found;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const char axis = kAxes[static_cast<std::size_t>(a)];
-    if (begins_at_zero.count() == 1 && begins_at_zero[a]) return LikelyUp{axis, true};
     if (some_begin && !begins_at_zero[a]) continue;
     const double others = std::max(contact[(a + 1) % 3], contact[(a + 2) % 3]);
-    if (contact[a] >= kMinContact && contact[a] >= kDominance * others)
-      found = LikelyUp{axis, false};
+    const bool is_flat_there = contact[a] >= kMinContact && contact[a] >= kDominance * others;
+    const bool begins_alone = begins_at_zero[a] && begins_at_zero.count() == 1;
+    const bool is_thin = extent[a] < kThin * extent[up - 'x'];
+    if (is_flat_there || begins_alone) {
+      found = LikelyUp{axis, is_flat_there && begins_alone && !is_thin};
+    }
   }
   return found;
 }

@@ -44,8 +44,9 @@ struct LikelyUp {
 };
 
 /// Of the sound faces: `up`, which is taken for it, where its coordinates begin at 0; else the only
-/// axis whose do; else, without being sure, the one with by far the most surface flat on its lower
-/// end. Each axis is measured by its own extent. Nothing when none tells.
+/// axis whose do; else the one with by far the most surface flat on its lower end. Sure is only
+/// what both say of an axis that is not the thin one of a wall. Each axis is measured by its own
+/// extent. Nothing when none tells.
 std::optional<LikelyUp> likely_up_axis(const TriangleMesh& mesh, char up);
 
 /// Area of the part of a face that lies below z_m.

@@ -160,8 +160,10 @@ Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_au
   Advice advice;
   Placement placement(report, scenario);
   advice.resize = resize(report, scenario, placement);
-  advice.likely_up = likely_up_axis(in_file_axes(report, scenario), report.reading.up_axis);
-  const auto& up = advice.likely_up;
+  const DeclaredAxes& declared = report.reading.declared;
+  std::optional<LikelyUp>& up = advice.likely_up;
+  if (!declared.is_law) up = likely_up_axis(in_file_axes(report, scenario), report.reading.up_axis);
+  if (up && declared.up_axis) up->is_sure = false;
   if (up && up->axis != report.reading.up_axis && scenario.structure.file.up_axis == "auto") {
     advice.up_axis = fmt::format("structure.file.up_axis={}", up->axis);
     if (up->is_sure) placement.turn_up(up->axis);

@@ -75,6 +75,7 @@ Finding up_axis_finding(const MeshReport& report, const Scenario& scenario, cons
                                   : reading.declared.up_axis ? "as the file declares"
                                                              : "as assumed, the file declares none";
   std::string what = fmt::format("{} is up, {}", reading.up_axis, origin);
+  if (reading.declared.is_law) return {"up axis", Severity::ok, what, ""};
   if (!likely) return {"up axis", Severity::ok, what + "; its shape does not tell", ""};
   if (likely->axis == reading.up_axis)
     return {"up axis", Severity::ok, what + "; its shape agrees", ""};

@@ -144,9 +144,18 @@ TEST(Advice, WhatMayLieOnItsSideIsAHintAndNoMore) {
   const MeshReport report = boxes.report();
   const std::string text = terminal_text(report);
   EXPECT_NE(text.find("if it lies on its side: --set structure.file.up_axis=y"), text.npos) << text;
-  for (const std::string& set : report.advice.sets()) {
-    EXPECT_EQ(set.find("up_axis"), set.npos) << set;
+  // a wall that begins at x = 0, a pole and a floating wall at y = 0
+  for (const Boxes& standing : {boxes, Boxes({Box3(Vec3(0, -0.2, -0.3), Vec3(10, 0.2, 6))}),
+                                Boxes({Box3(Vec3(-0.1, 0, -1), Vec3(0.1, 0.2, 8))}),
+                                Boxes({Box3(Vec3(-5, 0, 0.2), Vec3(5, 0.3, 4))})}) {
+    for (const std::string& set : standing.report().advice.sets()) {
+      EXPECT_EQ(set.find("up_axis"), set.npos) << set;
+    }
   }
+  // of glTF the axis is law
+  const std::string glb = (boxes.temp.path() / "t.glb").string();
+  write_mesh(load_mesh({.path = boxes.path}), glb);
+  EXPECT_EQ(terminal_text(report_on(glb, "aircraft", {})).find("up_axis"), text.npos);
 }
 
 TEST(Advice, AHairBelowTheFloorIsNoFault) {
