@@ -46,6 +46,9 @@ constexpr std::array kKinds = {
     Kind{"gltf", "a GLB file by its content: name it .glb", ".glb"},
     Kind{"ply\n", "a PLY file by its content: name it .ply", ".ply"},
     Kind{"<collada", "a COLLADA file by its content: name it .dae", ".dae"},
+    Kind{"solid ", "an STL file by its content: name it .stl", ".stl"},
+    Kind{"solid\n", "an STL file by its content: name it .stl", ".stl"},
+    Kind{"{", "JSON by its content: name it .gltf where it is glTF", ".glb"},
 };
 
 /// Without what may stand before the root of an XML file.
@@ -69,6 +72,10 @@ std::string what_it_is_instead(const std::filesystem::path& path, const std::str
   if (std::find(kClouds.begin(), kClouds.end(), extension) != kClouds.end()) {
     return "is a point cloud, not a mesh: `gnbv score CLOUD --mesh MESH` scores it, and `gnbv "
            "surface CLOUD` makes a mesh of it";
+  }
+  if (extension == ".3mf") return "is a 3MF file, which is not read: export it as .glb or .obj";
+  if (extension.starts_with(".usd")) {
+    return "is a USD file, which is not read: export it as .glb or .obj";
   }
   std::string head(4096, '\0');
   std::ifstream file = open_file(path);

@@ -75,7 +75,11 @@ void read_polygons(const MeshFileConfig& config, bool is_obj, bool keeps_uvs,
   PolygonMesh polygons = is_obj ? read_obj(config.path, reading.warnings, keeps_uvs)
                                 : read_ply(config.path, reading.warnings);
   if (polygons.face_ends.empty()) {
-    throw BadInput(fmt::format("{}: {}", config.path, no_faces_text(polygons.vertices.size())));
+    throw BadInput(
+        fmt::format("{}: {}", config.path,
+                    polygons.lost_faces > 0
+                        ? "holds no faces: " + without_path(config.path, reading.warnings.back())
+                        : no_faces_text(polygons.vertices.size())));
   }
   for (Vec3& p : polygons.vertices) {
     p = (T_world_file.topLeftCorner<3, 3>() * p + T_world_file.topRightCorner<3, 1>()).eval();

@@ -155,9 +155,9 @@ MeshScene read_stl(const std::filesystem::path& path) {
   const bool is_wide = is_utf16(head);
   const bool has_zero = !is_wide && head.find('\0') != head.npos;
   const std::string begin = as_utf8(std::string(head));
-  std::string_view rest = begin;
+  const bool may_be_text = !has_zero || begin.find("facet normal") != begin.npos;  // in its name
   const bool is_text =
-      !is_exact && !has_zero && in_lower_case(take_word(rest)).starts_with("solid");
+      !is_exact && may_be_text && in_lower_case(trimmed(begin)).starts_with("solid");
   if (is_text) {
     std::istringstream text(std::move(bytes));
     StlText(path, scene).read(text);

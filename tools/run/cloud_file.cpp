@@ -4,6 +4,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "sim/mesh/ply_write.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 #include "tools/run/cloud_formats.hpp"
@@ -19,7 +20,7 @@ void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesyste
 
 void CloudPoints::fail(const std::string& what, std::size_t line) const {
   const std::string place = line > 0 ? fmt::format(":{}", line) : "";
-  throw BadInput(fmt::format("{}{}: {}", path.string(), place, what));
+  throw BadInput(fmt::format("{}{}: {}", path.string(), place, printable(what)));
 }
 
 void CloudPoints::left_out(std::uint64_t count, const std::string& what) {

@@ -51,7 +51,7 @@ Number number_of(const Field& field) {
 
 class PcdFile {
  public:
-  explicit PcdFile(CloudPoints& to) : to_(to), bytes_(read_file(to.path)), rest_(bytes_) {}
+  explicit PcdFile(CloudPoints& to) : to_(to), bytes_(as_utf8(read_file(to.path))), rest_(bytes_) {}
 
   void read() {
     read_header();
@@ -85,10 +85,14 @@ class PcdFile {
 
   void read_header() {
     std::vector<std::string_view> words;
+    // a line feed after a carriage return is of its line where that is so in the first one
+    const std::size_t first_end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const bool ends_in_both = rest_.substr(first_end).starts_with("\r\n");
     while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
+      const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+      const bool has_both = ends_in_both && rest_.substr(end).starts_with("\r\n");
       split(rest_.substr(0, end), words);
-      rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
+      rest_.remove_prefix(std::min(end + (has_both ? 2 : 1), rest_.size()));
       ++line_;
       if (words.empty() || words[0].starts_with('#')) continue;
       if (words[0] == "DATA" && words.size() == 2) {

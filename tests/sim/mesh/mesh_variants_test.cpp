@@ -162,6 +162,9 @@ TEST_F(MeshVariant, AnStlIsItsTriangles) {
   expect_cube("t.stl", replaced(stl(), "normal 0 0 0", "normal #IND00e+000 -1.#IND nan"), "normal");
   expect_cube("t.stl", replaced(stl(), "facet normal 0 0 0", "FACET"), "no normal");
   expect_cube("t.stl", with_ends(stl(), " \n\n\t"), "blanks");
+  expect_cube("t.stl", "\n" + stl(), "a blank line first");
+  expect_cube("t.stl", replaced(stl(), "solid", std::string("solid a\0\0", 9)),
+              "zeros in its name");
   const std::string whole = stl();
   EXPECT_TRUE(
       says(fault("t.stl", whole.substr(0, whole.rfind("vertex"))), {"ends within a facet"}));
@@ -269,6 +272,12 @@ TEST_F(MeshVariant, AFileOfAnotherKindIsCalledByItsName) {
     EXPECT_TRUE(says(fault(name, "1 2 3\n"), {"is a point cloud", "gnbv score"})) << name;
   }
   EXPECT_TRUE(says(fault("t.obj", rows("v ")), {"only 8 points", "gnbv score"}));
+  EXPECT_TRUE(
+      says(fault("t.obj", rows("v ") + "f 1 2 9\n"), {"no faces: 1 faces of vertices that"}));
+  EXPECT_TRUE(says(fault("t.obj", "solid a\nfacet normal 0 0 1\n"), {"name it .stl"}));
+  EXPECT_TRUE(says(fault("t.obj", "{\"asset\": {}}"), {"name it .gltf"}));
+  EXPECT_TRUE(says(fault("t.3mf", "PK\x03\x04rest"), {"is a 3MF file"}));
+  EXPECT_TRUE(says(fault("t.usdz", "PK\x03\x04rest"), {"is a USD file"}));
 }
 
 }  // namespace

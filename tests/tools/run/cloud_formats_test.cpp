@@ -81,6 +81,9 @@ TEST_F(CloudFormats, PcdSaysWhatItHolds) {
       "TYPE U F I F\nCOUNT 3 1 1 1\nWIDTH 2\nHEIGHT 1\n";
   EXPECT_EQ(points_of("a.pcd", head + "DATA ascii\n1 2 3 9.5 -8 7\n1 2 3 0 0 -0.5\n"),
             (std::vector{Vec3f(7, -8, 9.5F), Vec3f(-0.5F, 0, 0)}));
+  std::string old_mac = "\xEF\xBB\xBF" + head + "DATA ascii\n1 2 3 9.5 -8 7\n1 2 3 0 0 -0.5\n";
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  EXPECT_EQ(points_of("a.pcd", old_mac), (std::vector{Vec3f(7, -8, 9.5F), Vec3f(-0.5F, 0, 0)}));
   EXPECT_EQ(complaint_of("a.pcd", head + "DATA ascii\n1 2 3 9.5 -8 7\n1 2 0 0 0\n"),
             "a.pcd:11: 5 words, its header says 6");
   EXPECT_EQ(complaint_of("a.pcd", head + "POINTS 3\nDATA ascii\n"),
@@ -129,6 +132,8 @@ TEST_F(CloudFormats, TextsThatMissSomethingAreNamedWithTheirLine) {
   EXPECT_EQ(complaint_of("a.pts", "1\n1 2 3\n4 5 6\n"),
             "a.pts:3: '4 5 6' follows the 1 points that the file announces");
   EXPECT_NE(complaint_of("a.e57", "x").find("CloudCompare"), std::string::npos);
+  EXPECT_EQ(complaint_of("a.xyz", std::string("1 2\0\n", 5)),
+            "a.xyz:1: '1 2\\x00' does not begin with three numbers");
 }
 
 /// A LAS file of one version, point format 0, whose scale is a millimetre.
