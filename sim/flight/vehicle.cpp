@@ -44,15 +44,24 @@ Eigen::Matrix3d rotation(const Vec3& rotation_vector_rad) {
 /// Triangles that never move; Bullet keeps pointers to the numbers.
 struct StaticMesh {
   explicit StaticMesh(const TriangleMesh& from) : vertices_m(from.vertices_m), faces(from.faces) {
-    btIndexedMesh part;
-    part.m_numTriangles = static_cast<int>(faces.size());
-    part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(faces.data());
-    part.m_triangleIndexStride = sizeof faces[0];
-    part.m_numVertices = static_cast<int>(vertices_m.size());
-    part.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices_m.data());
-    part.m_vertexStride = sizeof vertices_m[0];
-    part.m_vertexType = PHY_FLOAT;
-    triangles.addIndexedMesh(part, PHY_INTEGER);
+    // Bullet's tree names a face by its part and 21 bits, and counts two nodes a face in an int
+    constexpr std::size_t kMostInPart = std::size_t{1} << 21U;
+    constexpr std::size_t kMost = (std::size_t{1} << 30U) - 1;
+    if (faces.size() > kMost) {
+      throw BadInput(
+          fmt::format("a mesh of {} faces: at most {} can be flown at", faces.size(), kMost));
+    }
+    for (std::size_t first = 0; first < faces.size(); first += kMostInPart) {
+      btIndexedMesh part;
+      part.m_numTriangles = static_cast<int>(std::min(kMostInPart, faces.size() - first));
+      part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(&faces[first]);
+      part.m_triangleIndexStride = sizeof faces[0];
+      part.m_numVertices = static_cast<int>(vertices_m.size());
+      part.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices_m.data());
+      part.m_vertexStride = sizeof vertices_m[0];
+      part.m_vertexType = PHY_FLOAT;
+      triangles.addIndexedMesh(part, PHY_INTEGER);
+    }
     shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
     shape->setMargin(0.0);  // contact where the triangles are, not 4 cm before
   }

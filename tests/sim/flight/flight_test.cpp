@@ -234,6 +234,17 @@ TEST(RigidVehicle, LandsOnTheGroundPlaneAndStaysAboveIt) {
   EXPECT_FALSE(has_collided(groundless));
 }
 
+TEST(RigidVehicle, FeelsTheLastFaceOfAnyNumber) {
+  World world = empty_world();
+  world.terrain.vertices_m = {{50, 0, 0},  {51, 0, 0}, {50, 1, 0},
+                              {-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+  world.terrain.faces.assign((std::size_t{1} << 21U) + 1, {0, 1, 2});  // more than Bullet's 21 bits
+  world.terrain.faces.back() = {3, 4, 5};
+  RigidVehicle vehicle(kIris, world, at_height(1.0), all(0.0));
+  step(vehicle, all(0.0), 500);
+  EXPECT_TRUE(vehicle.has_touched_ground());
+}
+
 TEST(Flight, NanThrowsBrokenInvariant) {
   RigidVehicle vehicle(kIris, empty_world(), at_height(0.0), all(0.0));
   EXPECT_THROW(step(vehicle, all(kNan)), BrokenInvariant);
