@@ -253,6 +253,18 @@ class GltfReader {
     }
   }
 
+  /// Of vertices or joints: never below 0.
+  GltfNumbers names_in(std::size_t accessor, std::size_t width) {
+    constexpr std::array<std::size_t, 3> kUnsigned = {5121, 5123, 5125};
+    const std::size_t type = file_.size(file_.item("accessors", accessor), "componentType", 0);
+    if (std::ranges::count(kUnsigned, type) == 0) {
+      file_.fail(fmt::format(
+          "accessors[{}] names vertices or joints, by the componentType {}: no unsigned integers",
+          accessor, type));
+    }
+    return file_.numbers(accessor, width);
+  }
+
   /// Each vertex to where its joints carry it.
   void pose(const Json& attributes, std::size_t skin_index, std::vector<Vec3>& vertices) {
     const Json& skin = file_.item("skins", skin_index);
@@ -273,7 +285,7 @@ class GltfReader {
       const auto of_weights =
           file_.index(attributes, fmt::format("WEIGHTS_{}", set).c_str(), "accessors");
       if (!of_joints || !of_weights) break;
-      const GltfNumbers names = file_.numbers(*of_joints, 4);
+      const GltfNumbers names = names_in(*of_joints, 4);
       const GltfNumbers shares = file_.numbers(*of_weights, 4);
       if (std::min(names.rows(), shares.rows()) < vertices.size()) {
         file_.fail("a skin has fewer weights than vertices");
@@ -295,7 +307,7 @@ class GltfReader {
 
   void add_faces(const Json& primitive, bool are_triangles, bool is_fan, MeshScene::Part& part) {
     const auto accessor = file_.index(primitive, "indices", "accessors");
-    const GltfNumbers named = accessor ? file_.numbers(*accessor, 1) : GltfNumbers{};
+    const GltfNumbers named = accessor ? names_in(*accessor, 1) : GltfNumbers{};
     const std::size_t count = accessor ? named.rows() : part.vertices.size();
     const auto corner = [&](std::size_t i) -> std::uint32_t {
       const double value = accessor ? named.values[i] : static_cast<double>(i);

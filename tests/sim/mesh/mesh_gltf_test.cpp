@@ -120,6 +120,27 @@ TEST_F(GltfFile, WhatIsLeftOutIsCounted) {
   EXPECT_TRUE(says(found.warnings.back(), {"vertices that do not exist"}));
 }
 
+TEST_F(GltfFile, OnlyUnsignedIntegersNameVerticesAndJoints) {
+  for (const char* type : {"5120", "5122", "5126", "4294972417"}) {  // the last is 5121 in 32 bits
+    Gltf named;
+    named.indices = replaced(named.indices, "5121", type);
+    named.indices = replaced(named.indices, "\"bufferView\": 1", "\"bufferView\": 2");
+    named.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 12})";
+    named.more_bytes = std::string(12, '\xc1');  // below 0 in each of them
+    EXPECT_TRUE(says(fault("t.gltf", named.json()), {"accessors[1]", type, "no unsigned"}));
+
+    Gltf skinned;
+    skinned.node = R"(, "skin": 0)";
+    skinned.root = R"(, "skins": [{"joints": [1]}])";
+    skinned.primitive = R"(, "JOINTS_0": 2, "WEIGHTS_0": 2)";
+    skinned.more_accessors = fmt::format(
+        R"(, {{"bufferView": 2, "componentType": {}, "count": 3, "type": "VEC4"}})", type);
+    skinned.more_views = R"(, {"buffer": 0, "byteOffset": 40, "byteLength": 48})";
+    skinned.more_bytes = std::string(48, '\xc1');
+    EXPECT_TRUE(says(fault("t.gltf", skinned.json()), {"accessors[2]", type, "no unsigned"}));
+  }
+}
+
 TEST_F(GltfFile, ContainersAreReadAsTheyAre) {
   expect_triangle({}, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "plain");
   EXPECT_EQ(read("t.gltf", "\xEF\xBB\xBF" + Gltf{}.json()).mesh.faces.size(), 1U);
