@@ -10,6 +10,7 @@
 #include "bench/score/content_cache.hpp"
 #include "bench/score/packed_numbers.hpp"
 #include "scenarios/load.hpp"
+#include "sensors/sights.hpp"
 
 namespace gnbv {
 namespace {
@@ -125,7 +126,8 @@ Scenario what_a_ceiling_depends_on(const Scenario& scenario) {
     const LidarConfig usual;
     lidar.preset = usual.preset;
     lidar.name = usual.name;
-    lidar.beams = usual.beams;
+    // one that looks is an image of as many columns
+    if (!looks_at_views(lidar, !scenario.cameras.empty())) lidar.beams = usual.beams;
     lidar.rate_hz = usual.rate_hz;
     lidar.range_sigma_m = usual.range_sigma_m;
     lidar.rolling = usual.rolling;

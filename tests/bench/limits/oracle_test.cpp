@@ -267,6 +267,7 @@ TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
                                 "planner.validity.z_min_m=0.8",
                                 "lidars.0.pitch_deg=5",
                                 "lidars.0.range_max_m=12",
+                                "lidars.0.looks=views",
                                 "planner.profiling.method=none",
                                 "planner.profiling.scan_in_transit=false",
                                 "score.region_m={max: [0, 5, 5]}",
@@ -278,6 +279,12 @@ TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
     const Scenario other = load_scenario("smoke", {set});
     EXPECT_TRUE(keys.insert(key_of(other)).second) << set;
     EXPECT_NE(content_of(other), content_of(s.scenario)) << set;
+  }
+  // beams are the pixels of a LIDAR that looks
+  Scenario looking = load_scenario("smoke", {"lidars.0.looks=views"});
+  for (const int beams : {2, 1000}) {
+    looking.lidars[0].beams = beams;
+    EXPECT_TRUE(keys.insert(key_of(looking)).second) << beams;
   }
   // by the mesh in the key, by the name in the content
   for (const char* set : {"seed=2", "structure.builtin=lab_model", "structure.ground=false",
@@ -308,7 +315,8 @@ TEST(CeilingKey, ChangesWithAllThatTheResultDependsOnAndWithNothingElse) {
         "planner.validity.path=astar", "cameras.0.noise.model=released", "cameras.0.rate_hz=2",
         "cameras.0.name=x", "cameras.0.drop_probability=0.3", "guidance.path_speed_m_s=2",
         "vehicle.kind=ideal", "benchmark.stop_at_coverage=0.5", "wind.mean_m_s=[1, 0, 0]",
-        "score.sizes_m=[0.2]", "score.area_samples=99", "lidars.0.range_sigma_m=0.1"}) {
+        "score.sizes_m=[0.2]", "score.area_samples=99", "lidars.0.range_sigma_m=0.1",
+        "lidars.0.beams=99"}) {
     const Scenario other = load_scenario("smoke", {set});
     EXPECT_FALSE(keys.insert(key_of(other)).second) << set;
     EXPECT_EQ(content_of(other), content_of(s.scenario)) << set;
