@@ -47,7 +47,7 @@ Source open_source(const std::string& name_or_path) {
   return {read_file(path), name_or_path, fs::absolute(path).parent_path().string()};
 }
 
-/// A key and where it, or the nearest section around it, was given.
+/// A key and where it, or the preset that set it, or the nearest section around it, was given.
 struct GivenKey {
   std::string key;
   SourceLocation location;
@@ -64,7 +64,8 @@ GivenKey latest_given(const std::vector<std::string>& keys, const SourceLocation
     auto given = locations.find(path);
     while (given == locations.end() && path.find('.') != std::string::npos) {
       path.resize(path.rfind('.'));
-      given = locations.find(path);
+      if (path + ".preset" == preset_over(key)) given = locations.find(path + ".preset");
+      if (given == locations.end()) given = locations.find(path);
     }
     if (given == locations.end()) continue;
     const bool is_given_itself = path == key;

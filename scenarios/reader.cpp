@@ -31,6 +31,8 @@ class Reader final : public FieldVisitor {
     write_angles_once(field, value);
     const YamlEntry* entry = take(field.key);
     if (entry == nullptr) return;
+    auto* const* const text = std::get_if<std::string*>(&value);
+    const std::string before = text != nullptr ? **text : "";
     const auto errors = read_value(entry->value, field, folder_, value);
     for (const ValueError& error : errors) {
       const bool has_line = error.node->kind != Kind::null;  // a missing value has none
@@ -38,6 +40,10 @@ class Reader final : public FieldVisitor {
                   excerpt(*error.node), error.what);
     }
     if (errors.empty()) locations_[field.path] = entry->location;
+    if (text == nullptr || **text == before || **text == "own") return;
+    std::erase_if(locations_, [&](const auto& known) {  // another preset's values now
+      return known.first != field.path && preset_over(known.first) == field.path;
+    });
   }
 
   void refuse(std::string_view key, const std::string& path, const std::string& what) override {
@@ -202,6 +208,25 @@ class Reader final : public FieldVisitor {
 };
 
 }  // namespace
+
+std::string preset_over(std::string_view path) {
+  const auto upto_dot = [&](std::size_t from) {
+    return std::min(path.find('.', from), path.size());
+  };
+  const auto is_one_of = [](std::string_view key, std::initializer_list<std::string_view> keys) {
+    return std::ranges::find(keys, key) != keys.end();
+  };
+  std::size_t end = upto_dot(0);
+  const std::string_view section = path.substr(0, end);
+  const bool is_sensor = is_one_of(section, {"cameras", "lidars"});
+  if (is_sensor && end < path.size()) end = upto_dot(end + 1);  // with the index
+  if (end == path.size()) return "";
+  const std::string_view key = path.substr(end + 1, upto_dot(end + 1) - end - 1);
+  const bool is_set =
+      section == "vehicle" || (section == "start" && is_one_of(key, {"position_m", "yaw_deg"})) ||
+      (is_sensor && !is_one_of(key, {"name", "p_body_m", "roll_deg", "pitch_deg", "yaw_deg"}));
+  return is_set ? std::string(path.substr(0, end)) + ".preset" : "";
+}
 
 std::vector<std::string> read_scenario(const YamlNode& root, const std::string& folder,
                                        Scenario& scenario, ValidationErrors& errors,

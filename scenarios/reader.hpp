@@ -19,6 +19,11 @@ std::vector<std::string> read_scenario(const YamlNode& root, const std::string& 
                                        Scenario& scenario, ValidationErrors& errors,
                                        SourceLocations& locations);
 
+/// The key of the preset that sets the value of that path, beside or above it: of a vehicle all, of
+/// a start the pose, of a sensor all but name and mounting; "" for any other. A planner's preset
+/// sets switches alone, and is none of these.
+std::string preset_over(std::string_view path);
+
 // ---- the keys of version 0.1 that scenario files have no more (old_keys.cpp): files and run
 // directories of that version are read up to version 2.0; then these functions go
 

@@ -170,6 +170,17 @@ TEST(SensorPresets, BringTheirValuesAndTheKeysBesideThemOverride) {
   EXPECT_EQ(load_text(text, {"cameras.0.width_px=80"}).cameras[0].range_max_m, 7.0);
 }
 
+TEST(SensorPresets, GivenLaterAreAsIfTheKeysBeforeWereNotThere) {
+  const std::vector<std::string> takeoff = {"planner.preset=takeoff"};
+  const std::string alone =
+      to_yaml(load_text("cameras: [{preset: rgbd_sim, yaw_deg: 9}]\n", takeoff));
+  for (const int fov_deg : {60, 80}) {  // the preset's own, and another
+    const std::string before = fmt::format(
+        "cameras: [{{preset: zed_mini, fov_x_deg: {}, rate_hz: 10, yaw_deg: 9}}]\n", fov_deg);
+    EXPECT_EQ(to_yaml(load_text(before, {takeoff[0], "cameras.0.preset=rgbd_sim"})), alone);
+  }
+}
+
 TEST(SensorPresets, LeaveNameAndMountingToTheVehicle) {
   const Scenario s = load_text(
       "cameras: [{name: a, pitch_deg: 20}, {name: b, p_body_m: [1, 2, 3], yaw_deg: 30}]\n"

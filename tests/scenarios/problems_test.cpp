@@ -24,6 +24,12 @@ TEST(Problems, AreLaidToTheLineOfTheKeyGivenLast) {
   EXPECT_THAT(complaint("cameras:\n  - {}\n  - {name: b}\n", {"cameras=[{}, {}]"}),
               StartsWith("--set cameras=[{}, {}]: cameras.1.name: value 'rgbd': "))
       << "the new list knows nothing of the old one's lines";
+  const std::string below = "start: {position_m: [0, 0, 3]}\nworkspace_m: {max: [9, 9, 2]}\n";
+  EXPECT_THAT(complaint(kMinimal + below, {"start.preset=authors_pose_0"}),
+              StartsWith("--set start.preset=authors_pose_0: start.position_m: "));
+  EXPECT_THAT(complaint("cameras:\n  - {}\n  - {}\n", {"cameras.0.preset=zed_mini"}),
+              StartsWith("s.yaml:3: cameras.1.name: "))
+      << "a preset sets no name";
 }
 
 TEST(Problems, OfAKeyThatIsAtFaultItselfAreNotAdded) {
