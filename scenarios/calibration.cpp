@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "scenarios/document.hpp"
+#include "scenarios/fields.hpp"
+#include "scenarios/values.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/xml_tree.hpp"
 
@@ -227,9 +229,25 @@ void set_opencv(const Calibration& from, CameraConfig& camera) {
   set_distortion(Distortion::brown_conrady, listed, camera);
 }
 
+/// Refuses a number that the scenario's key would not take.
+class RangeCheck final : public FieldVisitor {
+ public:
+  explicit RangeCheck(const std::string& file) : file_(file) {}
+  void leaf(const Field& field, const FieldValue& value) override {
+    const auto* const number = std::get_if<double*>(&value);
+    if (number == nullptr || field.kind == FieldKind::angle) return;
+    if (contains(field.allowed, **number)) return;
+    throw BadInput(fmt::format("{}: {}: value '{}': {}", file_, field.path, **number,
+                               out_of_range(field.allowed)));
+  }
+
+ private:
+  const std::string& file_;
+};
+
 }  // namespace
 
-void read_calibration(const std::string& file, CameraConfig& camera) {
+CameraConfig calibrated(const std::string& file, CameraConfig camera) {
   const std::size_t at = file.rfind("#");
   const bool names_camera = at != file.npos && !std::filesystem::exists(file);
   const std::string path = names_camera ? file.substr(0, at) : file;
@@ -254,6 +272,9 @@ void read_calibration(const std::string& file, CameraConfig& camera) {
     throw BadInput(fmt::format("{}: focal lengths {} and {} px have to be above 0", path,
                                camera.fx_px, camera.fy_px));
   }
+  RangeCheck check(path);
+  fields(Keys(check), camera);
+  return camera;
 }
 
 }  // namespace gnbv

@@ -271,7 +271,7 @@ void fields(const Keys& key, CameraConfig& c) {
            "It sets image size, focal lengths, centre and distortion; a run keeps these values, "
            "not the file.");
   try {
-    if (!calibration.empty()) read_calibration(calibration, c);
+    if (!calibration.empty()) c = calibrated(calibration, c);
   } catch (const BadInput& wrong) {
     key.refuse("calibration", wrong.what());
   }

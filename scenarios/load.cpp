@@ -100,7 +100,9 @@ void add_problems(const Scenario& scenario, MeshFile mesh_file, const SourceLoca
     const auto& [key, location, is_given_itself] = latest_given(keys, locations, source);
     const auto values = scenario_values(scenario);
     const auto value = std::ranges::find(values, key, [](const auto& v) { return v.first; });
-    errors.add(location, key, value == values.end() ? "" : value->second, what);
+    // a scenario keeps no calibration's name
+    const bool is_known = value != values.end() && !key.ends_with(".calibration");
+    errors.add(location, key, is_known ? value->second : "", what);
   }
 }
 

@@ -50,16 +50,17 @@ void check_lens(const CameraConfig& c, const std::string& key, Problems& out) {
           {key + "fov_x_deg", key + "fov_y_deg", key + "width_px", key + "height_px"},
           "square pixels make the other field of view {:.1f} degrees; at most 170 is allowed",
           rad_to_deg(widest_rad));
-  require(c.cx_px <= c.width_px, out, {key + "cx_px", key + "width_px"},
+  require(c.cx_px <= c.width_px, out, {key + "cx_px", key + "width_px", key + "calibration"},
           "cx_px = {} lies outside the image, width_px = {}", c.cx_px, c.width_px);
-  require(c.cy_px <= c.height_px, out, {key + "cy_px", key + "height_px"},
+  require(c.cy_px <= c.height_px, out, {key + "cy_px", key + "height_px", key + "calibration"},
           "cy_px = {} lies outside the image, height_px = {}", c.cy_px, c.height_px);
   constexpr double kLeast_rad = deg_to_rad(1.0);
   if (c.distortion.model == Distortion::none || c.cx_px > c.width_px || c.cy_px > c.height_px)
     return;
-  require(make_camera_model(c).sight_rad.sizes().minCoeff() >= kLeast_rad, out,
-          {key + "distortion", key + "distortion.k1", key + "distortion.model"},
-          "the model folds within a degree of the optical axis: no image comes of it");
+  require(
+      make_camera_model(c).sight_rad.sizes().minCoeff() >= kLeast_rad, out,
+      {key + "distortion", key + "distortion.k1", key + "distortion.model", key + "calibration"},
+      "the model folds within a degree of the optical axis: no image comes of it");
 }
 
 }  // namespace

@@ -15,13 +15,6 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
-/// "... from 0 to 8", "... above 0, up to 8", "... above 0, below 8".
-std::string out_of_range(const Range& range) {
-  return fmt::format(
-      "is out of range (allowed: {} {}{} {})", range.is_min_open ? "above" : "from", range.min,
-      range.is_max_open ? ", below" : (range.is_min_open ? ", up to" : " to"), range.max);
-}
-
 std::string expected(const YamlNode& node, std::string_view what) {
   constexpr std::array<const char*, 5> kIs = {"has no value; ", "", "is a list; ", "is a map; ",
                                               "is a map; "};  // by YamlNode::Kind
@@ -194,6 +187,12 @@ std::string plain_or_quoted(const std::string& text) {
 }
 
 }  // namespace
+
+std::string out_of_range(const Range& range) {
+  return fmt::format(
+      "is out of range (allowed: {} {}{} {})", range.is_min_open ? "above" : "from", range.min,
+      range.is_max_open ? ", below" : (range.is_min_open ? ", up to" : " to"), range.max);
+}
 
 double degrees_of(double angle_rad) {
   const double around = rad_to_deg(angle_rad);

@@ -15,6 +15,9 @@ double degrees_of(double angle_rad);
 /// What is read back when the angle is written: itself, or the neighbour that degrees_of() takes.
 double written_angle_rad(double angle_rad);
 
+/// "is out of range (allowed: from 0 to 8)", "... above 0, up to 8", "... above 0, below 8".
+std::string out_of_range(const Range& range);
+
 /// The value as YAML, in the fewest digits that read back exactly; relative paths made absolute.
 std::string yaml_text(const Field& field, const FieldValue& value);
 

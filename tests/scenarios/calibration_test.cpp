@@ -181,6 +181,19 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
                     HasSubstr("none.yaml: there is no such file")));
 }
 
+TEST(Calibration, ItsValuesAreInTheRangesOfTheKeysAndAtFaultItself) {
+  for (const auto& [was, is, words] : std::vector<std::array<const char*, 3>>{
+           {"640.2", "-10", "calib: cx_px: value '-9.5': is out of range"},
+           {"700.1", "2e6", "calib: fx_px"},
+           {"0.1, 0.2", "0.1, -2e6", "calib: distortion.k2"},
+           {"rational_polynomial", "thin", "'thin' is not read"},
+           {"640.2", "1300", "cameras.0.calibration: cx_px = 1300.5 lies"}}) {
+    const std::string fault = read(with(kRos, was, is)).complaint;
+    EXPECT_THAT(fault, AllOf(HasSubstr("s.yaml:1: cameras.0.calibration: "), HasSubstr(words)));
+    EXPECT_EQ(fault.find('\n'), fault.npos) << fault;  // nothing of half a calibration
+  }
+}
+
 TEST(CameraKeys, OneFieldOfViewAloneMakesSquarePixels) {
   const auto model = [](const std::string& camera) {
     return make_camera_model(load_text("cameras: [{" + camera + "}]\n").cameras.at(0));
