@@ -154,9 +154,12 @@ void check_lengths(const PlannerConfig& planner, Problems& out) {
   const double extent_m = planner.fvs.frontier.max_extent_m;
   const double shadow_m = planner.utility.shadow.shadow_depth_m;
   const double finest_m = resolution_m / kLeavesPerVoxel;
-  require(planner.cloud.leaf_m >= finest_m, out, {"planner.cloud.leaf_m", resolution},
-          "leaf_m = {} has to be at least a 64th of planner.map.resolution_m = {}, that is {}",
-          planner.cloud.leaf_m, resolution_m, finest_m);
+  for (const auto& [key, leaf_m] : {std::pair("leaf_m", planner.cloud.leaf_m),
+                                    std::pair("profile_leaf_m", planner.cloud.profile_leaf_m)}) {
+    require(leaf_m >= finest_m, out, {fmt::format("planner.cloud.{}", key), resolution},
+            "{} = {} has to be at least a 64th of planner.map.resolution_m = {}, that is {}", key,
+            leaf_m, resolution_m, finest_m);
+  }
   require(extent_m == 0.0 || extent_m >= resolution_m, out,
           {"planner.fvs.frontier.max_extent_m", resolution},
           "max_extent_m = {} is neither 0 nor at least a voxel, {} m", extent_m, resolution_m);

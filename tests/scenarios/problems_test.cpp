@@ -85,6 +85,9 @@ TEST(Problems, OfValuesThatDoNotGoTogether) {
            {{"vehicle.autopilot.thrust_max=0.1"}, "thrust_min"},
            {{a + "rolling_coefficient_n_s2=1"}, "allowed: from 0 to 0.0001"},
            {{"planner.utility={beta: 0, gamma: 0}"}, "Eq. (2) divides"},
+           {{"planner.cloud.profile_leaf_m=0.002"},
+            "planner.cloud.profile_leaf_m: value '0.002': profile_leaf_m = 0.002 has to be at "
+            "least"},
            {{"planner.tour.lattice_step_m=1e-6"},
             "planner.tour.lattice_step_m: value '1.0e-06': a lattice of 4.1e+06 places, one every "
             "0.2 m"},
