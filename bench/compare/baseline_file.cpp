@@ -97,9 +97,13 @@ class File {
     return {name, number({"metrics", name, "value"}), number(tolerance),
             static_cast<Better>(found - kBetterNames.begin())};
   }
+  /// A stranger's list may lie deeper than dump() can go.
   [[noreturn]] void refuse(const Keys& keys, const std::string& what) const {
-    throw BadInput(
-        fmt::format("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), at(keys).dump(), what));
+    const Json& value = at(keys);
+    const std::string shown = value.is_array()    ? "a list"
+                              : value.is_object() ? "an object"
+                                                  : value.dump();
+    throw BadInput(fmt::format("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), shown, what));
   }
 
   fs::path path_;

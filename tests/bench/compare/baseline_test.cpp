@@ -206,6 +206,12 @@ TEST(Baseline, AFileWithAFaultIsRefusedByKey) {
     EXPECT_TRUE(test::says(fault, {"b.json", word}));
     EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
   }
+  const TempFolder temp;
+  const std::size_t deep = 200000;  // more than the stack holds of what recurses
+  std::ofstream(temp.path() / "b.json")
+      << R"({"schema":)" + std::string(deep, '[') + std::string(deep, ']') + '}';
+  EXPECT_TRUE(test::says(test::fault_of([&] { read_baseline(temp.path() / "b.json"); }),
+                         {"b.json: schema: a list is no text"}));
 }
 
 /// What people and programs read of a check: the changes beyond their tolerance, and all of them.
