@@ -131,7 +131,8 @@ void fill_in(const Filling& filling, Scenario& scenario, SourceLocations& locati
 /// Whom to tell that the structure is not in the workspace, which nobody knows before its mesh is
 /// read.
 std::string placed_at(const SourceLocations& locations, const SourceLocation& source) {
-  std::vector<std::string> keys = {"workspace_m.min", "workspace_m.max", "structure.builtin"};
+  std::vector<std::string> keys = {"workspace_m.min", "workspace_m.max", "structure.builtin",
+                                   "structure.offset_m"};
   for (const auto& [key, given] : locations) {
     if (is_at_or_below(key, "structure.file") || is_at_or_below(key, "structure.files")) {
       keys.push_back(key);

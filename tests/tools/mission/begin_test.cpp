@@ -55,6 +55,8 @@ TEST(LoadWorld, AMeshOutsideTheWorkspaceIsNamedWithTheLineThatPlacedItThere) {
               StartsWith(file + ":2: workspace_m: " + mesh + ": the mesh spans"));
   EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.file.offset_m=[0, 0, 1]"})),
               StartsWith("--set structure.file.offset_m=[0, 0, 1]: structure.file.offset_m: "));
+  EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.offset_m=[0, 0, 1]"})),
+              StartsWith("--set structure.offset_m=[0, 0, 1]: structure.offset_m: "));
   EXPECT_THAT(fault_of_world(load_scenario(file, {"workspace_m={max: [8, 8, 5]}"})),
               StartsWith("--set workspace_m={max: [8, 8, 5]}: workspace_m: "));
   EXPECT_THAT(fault_of_world(load_scenario(file, {"structure.file.up_axis=x"})),
