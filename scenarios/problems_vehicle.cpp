@@ -31,7 +31,9 @@ void check_yaw_authority(const AirframeParameters& a, Problems& out) {
   constexpr double kLeast_rad_s2 = 0.1;
   const double authority_rad_s2 = yaw_authority_rad_s2(a);
   require(authority_rad_s2 >= kLeast_rad_s2, out,
-          {kAirframe + "moment_per_thrust_m", kAirframe + "inertia_kg_m2"},
+          {kAirframe + "moment_per_thrust_m", kAirframe + "inertia_kg_m2",
+           kAirframe + "thrust_coefficient_n_s2", kAirframe + "command_gain_rad_s",
+           kAirframe + "rotors"},
           "the rotors turn the vehicle about its vertical by {:.2g} rad/s^2 at full yaw command; "
           "at least {} is needed",
           authority_rad_s2, kLeast_rad_s2);
@@ -51,7 +53,8 @@ void check_drag(const AirframeParameters& a, Problems& out) {
       drag_n_s_per_m * arm_m * arm_m * kTick_s / (kRateStepsPerTick * a.inertia_kg_m2.minCoeff());
   require(std::max(share, turning_share) <= kShareMax, out,
           {kAirframe + "drag_coefficient_n_s2_per_m", kAirframe + "mass_kg",
-           kAirframe + "inertia_kg_m2"},
+           kAirframe + "inertia_kg_m2", kAirframe + "idle_speed_rad_s",
+           kAirframe + "command_gain_rad_s", kAirframe + "rotors"},
           "the rotors' drag at full command would take {:.2g} of the speed in a tick and {:.2g} of "
           "the rotation in a step of the rate loop; at most {} can be simulated",
           share, turning_share, kShareMax);
@@ -102,7 +105,9 @@ void check_quadrotor(const Scenario& s, Problems& out) {
   check_hull(s, out);
   const bool hovers = require(
       autopilot.thrust_min < hover && hover < autopilot.thrust_max, out,
-      {kAirframe + "mass_kg", kAirframe + "thrust_coefficient_n_s2"},
+      {kAirframe + "mass_kg", kAirframe + "thrust_coefficient_n_s2", kAirframe + "idle_speed_rad_s",
+       kAirframe + "command_gain_rad_s", kAirframe + "gravity_m_s2", kAirframe + "rotors",
+       kAutopilot + "thrust_min", kAutopilot + "thrust_max"},
       "hovering takes the command {:.2f}, which is not between thrust_min = {} and thrust_max = {}",
       hover, autopilot.thrust_min, autopilot.thrust_max);
   if (hovers && check_rotors(a, out)) {

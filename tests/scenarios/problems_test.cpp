@@ -105,6 +105,9 @@ TEST(Problems, OfValuesThatDoNotGoTogether) {
            {{a + "rotors=[{p_body_m: [0.3, 0, 0], spin: 1}, {p_body_m: [-0.3, 0, 0], spin: 1}, "
                  "{p_body_m: [0, 0.3, 0], spin: -1}, {p_body_m: [0, -0.3, 0], spin: -1}]"},
             ""},
+           {{a + "gravity_m_s2=40"}, a + "gravity_m_s2: value '40': hovering takes the command"},
+           {{a + "idle_speed_rad_s=9e3"}, a + "idle_speed_rad_s: value '9000': hovering takes"},
+           {{a + "command_gain_rad_s=9"}, a + "command_gain_rad_s: value '9': hovering takes"},
            // a hull that fits into what is kept free
            {{a + "hull_radius_m=1.6"}, a + "hull_radius_m: value '1.6'"},
            {{a + "hull_radius_m=1.6"}, "planner.validity.collision_radius_m has to be more"},
