@@ -68,6 +68,9 @@ def test_every_field_that_a_planner_sees_is_documented():
     words = ' '.join(re.findall(r'"""(.*?)"""', source, re.S))
     for field in views:
         assert re.search(rf'\b{field}\b', words), f'help(gnbv) does not tell of {field}'
+    for field in re.findall(r'GNBV_VIEW_FIELD\((\w+), "...", shadow\)', header):  # not of evaluate()
+        assert f'`{field}`' in page.split('| field |')[0]
+        assert re.search(rf'Only utilities get [^.]*\b{field}\b', source), field
 
 
 def docs(gnbv, *words):

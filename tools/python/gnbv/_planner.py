@@ -154,8 +154,8 @@ class Belief:
         a voxel), voxel_m3 (m3 of one). Once a ray: entropy_per_ray_nat (nat). Of the rays (counts
         but where a unit says else): rays, rays_occupied, occlusion_aware_nat, unobserved_nat,
         rear_side_rays, rear_side_nat, crossed_by_occupied (voxels), entropy_of_occupied_nat,
-        unknown_volume_m3, proximity_sum (voxels), shadow_rays, front_rays. path_m: the straight
-        way (m).
+        unknown_volume_m3, front_rays. path_m: the straight way (m), also where a utility gets the
+        length of the way around. Only utilities get proximity_sum and shadow_rays.
         """
         rows = view_rows(views)
         return np.frombuffer(self._view.evaluate(rows), np.dtype(self._view.stats_dtype))
