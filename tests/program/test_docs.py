@@ -81,6 +81,8 @@ def docs(gnbv, *words):
 def test_the_reference_pages_are_what_the_program_says(gnbv):
     end = docs(gnbv, '--check')
     assert end.returncode == 0, end.stderr
+    keys = (REPOSITORY / 'docs/reference/keys.md').read_text()
+    assert '`vehicle.autopilot.tilt_max_deg` | number, above 0 to below 90 |' in keys
 
 
 def test_man_pages_and_completions_know_every_command_and_option(gnbv, run, tmp_path):
@@ -88,23 +90,33 @@ def test_man_pages_and_completions_know_every_command_and_option(gnbv, run, tmp_
     bash = (tmp_path / 'bash-completion/completions/gnbv').read_text()
     fish = (tmp_path / 'fish/vendor_completions.d/gnbv.fish').read_text()
     zsh = (tmp_path / 'zsh/vendor-completions/_gnbv').read_text()
-    helped = subprocess.run([gnbv.path, '--help'], capture_output=True, text=True).stdout
-    commands = re.findall(r'^  (\w+) ', helped.split('Subcommands:')[1].split('\n\n')[0], re.M)
-    assert len(commands) > 15
+    def helped(*words):
+        return subprocess.run([gnbv.path, *words, '--help'], capture_output=True, text=True).stdout
+
+    def below(*words):
+        rows = helped(*words).split('Subcommands:')[1].split('\n\n')[0]
+        return [' '.join([*words, part]) for part in re.findall(r'^  (\w+) ', rows, re.M)]
+
+    commands = below() + below('bench')
+    assert len(commands) > 20
     for command in commands:
-        text = subprocess.run([gnbv.path, command, '--help'], capture_output=True, text=True).stdout
-        page = (tmp_path / f'man/man1/gnbv-{command}.1').read_text().replace('\\-', '-')
+        text = helped(*command.split())
+        name = command.replace(' ', '-')
+        page = (tmp_path / f'man/man1/gnbv-{name}.1').read_text().replace('\\-', '-')
+        for line in text.partition('\nExamples:\n')[2].splitlines():
+            assert line.strip() in page, (command, line)
         for option in set(re.findall(r'^  (?:-\w,)?(--[\w-]+)', text, re.M)):
             assert re.search(rf'(\\fB|,){option}[,\\]', page), (command, option)
             assert re.search(rf'(?<![\w-]){option}(?![\w-])', bash) and f"'{option}[" in zsh.replace(
                 "'*", "'"), (command, option)
-            assert re.search(rf"_from {command}' .*-l {option[2:]} ", fish), (command, option)
+            assert re.search(rf"_in ' {command}'\" .*-l {option[2:]} ", fish), (command, option)
     ask = f'''source {tmp_path}/bash-completion/completions/gnbv
         ask() {{ COMP_WORDS=("$@") COMP_CWORD=$(($#-1)) COMPREPLY=(); _gnbv
                  echo "${{COMPREPLY[*]}}"; }}
-        ask gnbv comp; ask gnbv run --cand; ask gnbv export --format col'''
+        ask gnbv comp; ask gnbv run --cand; ask gnbv export --format col
+        ask gnbv bench ver; ask gnbv bench run --tr; ask gnbv run --tr'''
     said = subprocess.run(['bash', '-c', ask], capture_output=True, text=True).stdout
-    assert said.splitlines() == ['compare', '--candidates', 'colmap']
+    assert said.splitlines() == ['compare', '--candidates', 'colmap', 'verify', '--track', '']
     if shutil.which('man'):
         shown = subprocess.run(['man', '--warnings', '-l', tmp_path / 'man/man1/gnbv-run.1'],
                                capture_output=True, text=True, env=os.environ | {'LC_ALL': 'C'})
