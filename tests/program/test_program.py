@@ -247,7 +247,7 @@ def test_without_threads_the_system_is_blamed(gnbv, copy_of, tmp_path, words):
     gnbv(*words.split()).check({1}, ['Resource temporarily unavailable'])
 
 
-def test_doctor_says_what_is_missing_and_how_to_get_it(run):
+def test_doctor_says_what_is_missing_and_how_to_get_it(run, tmp_path):
     def rows(**environment):
         table = run('doctor --json', **environment)
         return {row['need']: row for row in table.json['rows']}, table.json['notes']
@@ -262,4 +262,15 @@ def test_doctor_says_what_is_missing_and_how_to_get_it(run):
                          ('a font', 'apt install fonts-dejavu-core')]:
         assert bare[need]['is_here'] == 'no' and remedy in bare[need]['remedy']
     assert any('/nowhere/font' in note for note in notes)
+    (tmp_path / 'f.py').write_text('def score(views):\n    return views["free_voxels"]\n')
+    python = tmp_path / 'python'  # which has NumPy, or has not
+    python.write_text('#!/bin/sh\nPYTHONPATH=$NUMPYS exec /usr/bin/python3 -S "$@"\n')
+    python.chmod(0o755)
+    (tmp_path / 'has').mkdir()
+    (tmp_path / 'has/numpy.py').touch()
+    for path, says in [('/nowhere', 'no'), (str(tmp_path / 'has'), 'yes')]:
+        there, _ = rows(GNBV_PYTHON=str(python), NUMPYS=path)
+        assert there['Python: numpy']['is_here'] == says
+    run(f'run smoke {ONE} --utility {tmp_path}/f.py:score', 'numpy', code=2,
+        GNBV_PYTHON=str(python), NUMPYS='/nowhere')
     assert 'ffmpeg' in run('doctor').out

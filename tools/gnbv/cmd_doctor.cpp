@@ -31,14 +31,15 @@ bool succeeds(const std::vector<std::string>& command) {
       .is_success();
 }
 
-/// Of the Python that runs, or Debian's, which is asked next, as ask_python() does.
+/// Of the Python that runs, or Debian's, which ask_python() asks next and a user's function does
+/// not.
 Need python_need(const std::string& commands, const std::string& modules, const std::string& apt,
-                 const std::string& pip) {
+                 const std::string& pip, bool asks_debians = true) {
   const std::string python = python_program();
   const auto is_here = [=] {
     const std::string script = "import " + modules;
     return succeeds({python, "-c", script}) ||
-           (python == "python3" && succeeds({"/usr/bin/python3", "-c", script}));
+           (asks_debians && python == "python3" && succeeds({"/usr/bin/python3", "-c", script}));
   };
   const std::string debian = apt.empty() ? "" : fmt::format("apt install {}, or ", apt);
   return {commands, "Python: " + modules, is_here,
@@ -61,7 +62,7 @@ std::vector<Need> needs() {
        "apt install libosmesa6, or where it is no more libegl1 libegl-mesa0"},
       {"render, surface, paper", "a font", [] { return text_width_px("a", 1.0) > 0.0; },
        "apt install fonts-dejavu-core"},
-      program("utilities and planners in Python", python_program(), "--version", "python3"),
+      python_need("utilities and planners in Python", "numpy", "python3-numpy", "numpy", false),
       python_need("plot", "matplotlib", "python3-matplotlib", "matplotlib"),
       python_need("paper", "matplotlib, jinja2", "python3-matplotlib python3-jinja2",
                   "matplotlib jinja2"),
