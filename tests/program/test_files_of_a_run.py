@@ -93,6 +93,12 @@ def test_without_frames_there_is_no_texture(run, copy):
     assert not (copy / 'surface').exists()
 
 
+def test_the_mesh_of_a_cloud_is_flown_by_the_command_that_surface_says(run, copy):
+    said = run('surface run/cloud.ply -o mesh --threads 2').out
+    run(re.search(r'^fly it: gnbv (run .*)$', said, re.M)[1] + ' --quiet --out flown'
+        ' --set planner.termination.max_iterations=1 --set planner.profiling.method=none')
+
+
 def test_a_damaged_picture_costs_the_texture_and_no_more(run, copy):
     pictures = sorted((copy / 'frames').glob('*.png'))
     for picture in pictures:

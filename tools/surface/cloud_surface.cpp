@@ -87,7 +87,7 @@ CloudSurface surface_of_cloud(const fs::path& cloud, const Vec3& offset_m,
       "{}: {} points, thinned to leaves of {:.3g} m; {} faces, {:.4g} m2\n"
       "error, the points' distance to the surface: mean {:.4f} m, 95 % within {:.4f} m, largest "
       "{:.4f} m\n"
-      "fly it: gnbv run --mesh {} --bounds auto\n",
+      "fly it: gnbv run aircraft --mesh {} --bounds auto\n",
       name, grouped(points_m.size()), leaf_m, grouped(faces), area_m2, mean_m, p95_m, errors.back(),
       shell_word((folder / "surface.ply").string()));
   write_file_atomically(made.files.emplace_back(folder / "surface.json"), made.json);
