@@ -198,8 +198,8 @@ void fields(const Keys& key, GuidanceConfig& c) {
                 "smooth: how far the heading may be off there.");
   key.angle("image_motion_max_deg_s", c.image_motion_max_rad_s, {0, 1e3},
             "How fast surface may cross the image. It limits turns, and between views the speed "
-            "divided by the distance of the nearest known surface. Set it to the blur allowed in "
-            "pixels / (focal length in pixels * exposure time). 0: no limit.");
+            "divided by the distance of the nearest known surface. Set it to 57.3 times the blur "
+            "allowed in pixels / (focal length in pixels * exposure time in s). 0: no limit.");
   key("timeout_s", c.timeout_s, positive(3600),
       "A leg that takes this much longer than planned is given up.");
 }
