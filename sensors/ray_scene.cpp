@@ -104,6 +104,32 @@ void move_back(const Vec3& by_m, RTCRay16& rays) {
   }
 }
 
+/// From which share of the edge to which a box that moves along it, from where it stands, holds the
+/// point; from more than to where it never does.
+std::pair<double, double> passage(const Vec3& p_m, const Vec3& edge_m, const Box3& box_m) {
+  double from = 0.0, to = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low_m = p_m[axis] - box_m.max()[axis], high_m = p_m[axis] - box_m.min()[axis];
+    if (edge_m[axis] == 0.0) {
+      if (low_m > 0.0 || high_m < 0.0) return {1.0, 0.0};
+      continue;
+    }
+    const double a = low_m / edge_m[axis], b = high_m / edge_m[axis];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return {from, to};
+}
+
+/// All that is so near to the body, where it stands at time 0, and a little more.
+Box3 surroundings_m(const EmbreeScene& body, double distance_m) {
+  RTCBounds b{};
+  rtcGetSceneBounds(body.scene.get(), &b);
+  const Vec3 by_m = Vec3::Constant(distance_m + 1e-3);
+  return {Vec3f(b.lower_x, b.lower_y, b.lower_z).cast<double>() - by_m,
+          Vec3f(b.upper_x, b.upper_y, b.upper_z).cast<double>() + by_m};
+}
+
 }  // namespace
 
 RayScene::RayScene(const World& world) : embree_(std::make_shared<const EmbreeScene>(world)) {
@@ -269,10 +295,27 @@ double RayScene::distance_to_surroundings_m(const Vec3& p_world_m, double limit_
   constexpr double kApart_m = 0.02;  // of a body's places
   double nearest_m = distance_m(kObstaclePart | kTerrainPart, p_world_m, limit_m);
   for (const Mover& mover : movers_) {
-    const double length_m = mover.motion.length_m();
-    for (double along_m = 0.0; along_m < length_m + kApart_m; along_m += kApart_m) {
-      const Vec3 p_m = p_world_m - mover.motion.offset_after(std::min(along_m, length_m));
+    const auto look_from = [&](double along_m) {
+      const Vec3 p_m = p_world_m - mover.motion.offset_after(along_m);
       nearest_m = std::min(nearest_m, mover.body->distance_m(kObstaclePart, p_m, limit_m));
+    };
+    look_from(0.0);
+    const std::vector<Vec3> corners_m = mover.motion.corners_m();
+    const double length_m = mover.motion.length_m();
+    double begin_m = 0.0;  // of the edge, along the way
+    for (std::size_t i = 1; i < corners_m.size(); ++i) {
+      const Vec3 edge_m = corners_m[i] - corners_m[i - 1];
+      const double edge = edge_m.norm();
+      const auto [from, to] = passage(p_world_m - corners_m[i - 1], edge_m,
+                                      surroundings_m(*mover.body, std::min(limit_m, nearest_m)));
+      if (from <= to) {  // and a place more at either end, for what is rounded
+        const double last = std::ceil((begin_m + to * edge) / kApart_m) + 1.0;
+        double k = std::max(0.0, std::floor((begin_m + from * edge) / kApart_m) - 1.0);
+        for (; k <= last && (k - 1.0) * kApart_m < length_m; ++k) {
+          look_from(std::min(k * kApart_m, length_m));
+        }
+      }
+      begin_m += edge;
     }
   }
   return nearest_m;

@@ -86,5 +86,31 @@ TEST(MovingScene, AtRestNothingThatMovesIsThereAndItsWaysAreSurroundings) {
               1e-6);
 }
 
+/// Brute force: the distance at every two centimetres of the way, whatever is near.
+TEST(MovingScene, SurroundingsAreTheNearestOfAllPlacesOfABody) {
+  for (const bool loop : {true, false}) {
+    const std::vector<Vec3> corners = {{3, 0, 0}, {3, 0, 0}, {3, 4, 1}, {-2, 4, 1}};
+    World world = test::world_of({}, false);
+    world.movers = {{test::random_soup(20, 1.0, {0, 0, 0}, 5), {corners, 1.0, loop}}};
+    World still = test::world_of({}, false);
+    still.obstacles = world.movers[0].mesh;
+    const RayScene scene(world), standing(still);
+    const BodyMotion& motion = world.movers[0].motion;
+    int near = 0;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 p_m(0.2 * i - 6.0, 0.37 * (i % 17) - 2.0, 0.6 * (i % 5) - 1.0);
+      double nearest_m = std::numeric_limits<double>::infinity();
+      for (int k = 0; 0.02 * (k - 1) < motion.length_m(); ++k) {
+        const Vec3 offset_m = motion.offset_after(std::min(0.02 * k, motion.length_m()));
+        nearest_m = std::min(nearest_m, standing.distance_m(kObstaclePart, p_m - offset_m, 0.5));
+      }
+      EXPECT_EQ(scene.distance_to_surroundings_m(p_m, 0.5), nearest_m) << p_m.transpose();
+      near += std::isfinite(nearest_m) ? 1 : 0;
+    }
+    EXPECT_GT(near, 5);
+    EXPECT_LT(near, 55);
+  }
+}
+
 }  // namespace
 }  // namespace gnbv
