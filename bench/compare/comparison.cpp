@@ -36,12 +36,13 @@ std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
   return index;
 }
 
-std::optional<Measured> measured(const RunMetric& metric, const MissionRow& mission) {
+/// `limit`: of an effort, what counts for a mission that did not get there.
+std::optional<Measured> measured(const RunMetric& metric, const MissionRow& mission,
+                                 std::optional<double> limit) {
   const std::optional<double> value = metric.value(mission);
   if (!value || !metric.is_effort()) {
     return value ? std::optional(Measured{*value, *value}) : std::nullopt;
   }
-  const std::optional<double> limit = mission.find(metric.limit_key);
   if (!limit) return std::nullopt;
   return Measured{*value, std::min(*value, *limit)};
 }
@@ -49,9 +50,13 @@ std::optional<Measured> measured(const RunMetric& metric, const MissionRow& miss
 Values values_of(Comparison& comparison, std::span<const MissionRow> missions, std::size_t scenario,
                  std::size_t metric) {
   Values values(comparison.methods.size());
+  const RunMetric& its = comparison.metrics[metric];
+  const std::string& name = comparison.scenarios[scenario];
+  // one for all: who flies less before the first view would else look faster for not getting there
+  const auto limit = largest_figure(missions, name, its.limit_key);
   for (const MissionRow& mission : missions) {
-    if (mission.scenario != comparison.scenarios[scenario]) continue;
-    const auto value = measured(comparison.metrics[metric], mission);
+    if (mission.scenario != name) continue;
+    const auto value = measured(its, mission, limit);
     if (!value) continue;
     auto& of_method = values[index_in(comparison.methods, mission.method)];
     const bool is_new = of_method.emplace(Pair(mission.scenario, mission.seed), *value).second;

@@ -27,7 +27,7 @@ enum class Verdict {
 
 /// A method against the baseline, over the seeds or structures that both have. Where a run did not
 /// reach what the metric asks for, it is worse than any that did, and as good as another that did
-/// not; in means it counts as the budget.
+/// not; in means it counts as the budget, the largest of the methods'.
 struct Contrast {
   double baseline_mean = 0.0;
   MeanEstimate difference = {};  // method - baseline, over all pairs

@@ -159,10 +159,10 @@ void add_effort_notes(std::vector<std::string>& notes, const Comparison& compari
   notes.emplace_back(
       "to N % of ceiling: until the cloud first covered so much at 0.05 m of what it can hold, "
       "within the budget; n: how many runs got there; median: of all, not to get there being the "
-      "largest; mean and difference: of all, where a run that did not counts as the budget; rank, "
-      "p and verdict: of all, where it is worse than any that did; from take-off: since the "
-      "mission "
-      "began in the air, with its profile; on one battery: with the way home (docs/how/scores.md)");
+      "largest; mean and difference: of all, where a run that did not counts as the budget, "
+      "from take-off as the largest of the methods'; rank, p and verdict: of all, where it is "
+      "worse than any that did; from take-off: since the mission began in the air, with its "
+      "profile; on one battery: with the way home (docs/how/scores.md)");
   for (const auto& [scenario, names] : missed) {
     notes.push_back(fmt::format("{}: no run got to {}", comparison.scenarios[scenario],
                                 fmt::join(names, ", ")));

@@ -144,6 +144,15 @@ std::optional<double> MissionRow::find(std::string_view name) const {
   return at == figures.end() ? std::nullopt : std::optional(at->second);
 }
 
+std::optional<double> largest_figure(std::span<const MissionRow> missions,
+                                     std::string_view scenario, std::string_view figure) {
+  std::optional<double> largest;
+  for (const MissionRow& mission : missions) {
+    if (mission.scenario == scenario) largest = std::max(largest, mission.find(figure));
+  }
+  return largest;
+}
+
 MissionRow mission_row(const RunFigures& run) {
   return {.scenario = run.scenario,
           .method = run.utility,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,10 @@ struct MissionRow {
 
   std::optional<double> find(std::string_view name) const;
 };
+
+/// Of the missions of a scenario, where any has the figure.
+std::optional<double> largest_figure(std::span<const MissionRow> missions,
+                                     std::string_view scenario, std::string_view figure);
 
 /// What a mission came to at its end, after fewer views, or after its profile: the same names with
 /// a prefix before them.

@@ -280,13 +280,13 @@ std::vector<MissionRow> least_efforts(const PaperGroup& group,
 
 /// The median, how many got there, and the mean in which the others have spent the budget.
 TableCell effort_cell(std::span<const MissionRow> missions, std::string_view name,
-                      std::string_view budget) {
+                      std::optional<double> budget) {
   std::vector<double> efforts, restricted;
   for (const MissionRow& mission : missions) {
     const auto effort = mission.find(name);
     if (!effort) return {};  // nobody knows
     efforts.push_back(*effort);
-    restricted.push_back(std::min(*effort, mission.find(budget).value_or(*effort)));
+    restricted.push_back(std::min(*effort, budget.value_or(*effort)));
   }
   const auto there = static_cast<double>(
       std::ranges::count_if(efforts, [](double effort) { return std::isfinite(effort); }));
@@ -363,10 +363,12 @@ TextTable effort_columns(const PaperTable& paper,
       const std::string percent(share.substr(2));
       const std::string head = *behind == '\0' ? "" : "To ";
       const std::string_view name = kEffortNames[static_cast<std::size_t>(effort)];
+      // one for all rows, whatever each flew before its first view
+      const auto budget = largest_figure(missions, paper.scenario, budget_of(effort));
       add({fmt::format("{}{}%{}", head, percent, behind), fmt::format("{}_to_{}", name, percent),
            ColumnKind::counted},
           [&](const auto& group) {
-            return effort_cell(group, figure_to_reach(effort, share), budget_of(effort));
+            return effort_cell(group, figure_to_reach(effort, share), budget);
           });
       if (effort != Effort::wh_with_profile) continue;
       add({fmt::format("{}{}% on one battery", head, percent),
@@ -421,10 +423,11 @@ TextTable effort_table(const PaperTable& paper, Effort effort,
   table.notes = {fmt::format(
       "{} from {} on until the cloud first covered so much of its ceiling at 0.05 m: median, "
       "where a mission that did not get there{} counts as more than all others; how many got "
-      "there; mean, where it counts as the budget; an oracle of few metres or seconds flies once "
+      "there; mean, where it counts as the {}budget; an oracle of few metres or seconds flies once "
       "for each share, and the least counts{}",
       words.unit, words.from,
       budget ? fmt::format(" within the budget of {:g} {}", *budget, words.short_unit) : "",
+      is_from_take_off(effort) ? "largest " : "",
       effort == Effort::wh_with_profile ? "; on one battery: with the way home" : "")};
   return table;
 }

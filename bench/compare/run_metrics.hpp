@@ -19,7 +19,7 @@ struct RunMetric {
   int decimals = 1;
   /// Whether a method can be better by it. Nobody is for ending early, nor for reducing entropy.
   bool is_judged = true;
-  /// Of an effort the figure that says what a mission which used up the budget has spent.
+  /// Of an effort the figure that says what a mission which used up its budget has spent.
   std::string limit_key = {};
 
   std::optional<double> value(const MissionRow& mission) const;

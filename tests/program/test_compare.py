@@ -2,7 +2,7 @@
 import json
 
 import pytest
-from program import summary
+from program import REPOSITORY, summary
 
 FEW = '--quiet --set planner.termination.max_iterations=4'
 # what it sees in a moment

@@ -17,6 +17,10 @@ SMALL = '--set structure.builtin=smoke --set cameras.0.width_px=64 --set cameras
 TINY = f'--quiet --no-oracle --set planner.termination.max_iterations=3 {SMALL}'
 TABLE = f'table lab_model --seeds 2 {TINY} --missions rows.csv --commit abc'
 
+# the least that a comparison of rows reads
+COLUMNS = ['id', 'scenario', 'structure', 'structure_sha256', 'method', 'setting', 'commit',
+           'program', 'termination', 'result_sha256', 'seed', 'within_coverage_0.05']
+
 
 @pytest.fixture
 def first(whole, tmp_path):
@@ -115,14 +119,12 @@ def test_damaged_rows_are_refused_by_line(run, first, tmp_path, change, says):
 def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
     stats = pytest.importorskip('scipy.stats')
     # rows need no missions: six structures, three seeds, a tie, a difference of nothing
-    columns = ['id', 'scenario', 'structure', 'structure_sha256', 'method', 'setting', 'commit',
-               'program', 'termination', 'result_sha256', 'seed', 'within_coverage_0.05']
     rows, by_structure = [], {}
     for s in range(8):
         for m, method in enumerate(('base', 'own')):
             values = [0.8 + 0.01 * s + 0.002 * seed + m * (0.004 * (s % 4) - 0.003) for seed in range(3)]
             by_structure[method, s] = sum(values) / 3
-            rows += [dict(zip(columns, (f'{s}{m}{seed}', f'scene {s}', f's{s}', '', method, '', 'c',
+            rows += [dict(zip(COLUMNS, (f'{s}{m}{seed}', f'scene {s}', f's{s}', '', method, '', 'c',
                                         'p', 'max_iterations', f'{s}{m}{seed}', seed, value)))
                      for seed, value in enumerate(values)]
     write_rows(tmp_path / 'rows.csv', rows)
@@ -138,11 +140,9 @@ def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
 
 
 def test_rows_of_one_scenario_around_two_structures_are_of_two(run, tmp_path):
-    columns = ['id', 'scenario', 'structure', 'structure_sha256', 'method', 'setting', 'commit',
-               'program', 'termination', 'result_sha256', 'seed', 'within_coverage_0.05']
     for structure in ('aircraft', 'a340.obj'):
         write_rows(tmp_path / f'{structure}.csv', [
-            dict(zip(columns, (f'{structure}{method}{seed}', 'aircraft', structure, '', method, '', 'c',
+            dict(zip(COLUMNS, (f'{structure}{method}{seed}', 'aircraft', structure, '', method, '', 'c',
                                'p', 'max_iterations', f'{method}{seed}', seed, 0.9)))
             for method in ('base', 'own') for seed in (1, 2)])
     table = run('compare --from aircraft.csv a340.obj.csv --baseline base --format json').json

@@ -212,6 +212,22 @@ TEST(Compare, AMissionThatDiesEarlyWinsNoVerdict) {
   EXPECT_TRUE(notes_say(c, "aircraft: no run got to 95 % of ceiling, 98 % of ceiling, 99 %"));
 }
 
+/// Each counts as the most that any method has by then, not as what it has spent itself.
+TEST(Compare, WhoNeverGetsThereIsNoFasterForAShorterProfile) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    runs.push_back(climbing("profile", seed, 2, 10.0));
+    runs.push_back(climbing("none", seed, 2, 10.0));
+    runs.back().figures.before = {};
+  }
+  const Comparison c = compare(runs, "profile", ceiling_at(1.0));
+  for (const std::string_view unit : {"metres", "seconds"}) {
+    const auto metric = fmt::format("{} to 90 % of ceiling, from take-off", unit);
+    EXPECT_EQ(find_figure(c, 0, metric, 1)->contrast->difference.mean, 0.0) << unit;
+    EXPECT_EQ(find_figure(c, 0, metric, 1)->estimate.mean, unit == "metres" ? 125.0 : 62.0);
+  }
+}
+
 TEST(Compare, EffortsWithTheProfileAddIt) {
   const std::vector<ComparedRun> runs = {climbing("a", 1, 10, 10.0), climbing("b", 1, 10, 20.0)};
   const Comparison c = compare(runs, "a", ceiling_at(1.0));

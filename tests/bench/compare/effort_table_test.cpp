@@ -133,6 +133,19 @@ TEST(EffortTable, FromTakeOffHasTheProfileTheEnergyAndTheBattery) {
   EXPECT_EQ(take_off_table(paper, rows_of(older, all_of_it())).columns.size(), 4U);
 }
 
+TEST(EffortTable, FromTakeOffWhoNeverGetsThereCountsAsTheLargestBudget) {
+  std::vector<RunFigures> runs = {reaching("proposed", 1, 50.0, false),
+                                  reaching("tour", 1, 50.0, false)};
+  for (RunFigures& run : runs) run.budgets = {0.0, 300.0, 0.0};
+  runs[0].before = {.profile_m = 200.0};
+  runs[1].before = {};
+  const PaperTable& paper = *find_paper_table("aircraft");
+  const auto rows =
+      all_texts(effort_table(paper, Effort::metres_with_profile, rows_of(runs, all_of_it())));
+  EXPECT_EQ(rows.at(0).at(6), "- (0 of 1), 500.0");
+  EXPECT_EQ(rows.at(1).at(6), "- (0 of 1), 500.0");
+}
+
 TEST(EffortTable, ItsRowsAreThoseOfThePapersTable) {
   const PaperTable& paper = *find_paper_table("aircraft");
   const std::vector<RunFigures> runs = {reaching("tour", 1, 100.0, true),
