@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "sim/core/error.hpp"
@@ -18,8 +19,21 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// What a method came to on one side of a pair.
 struct Measured {
-  double value = 0.0;  // kNever for an effort that did not get there within the budget
-  double mean = 0.0;   // the same as means count it: of such an effort the budget
+  double value = 0.0;            // kNever for an effort that did not get there within the budget
+  double mean = 0.0;             // the same as means count it: of such an effort the budget
+  std::string_view result = {};  // of one mission, by which it is known again
+};
+
+/// Whether this is no pair of missions that was seen before.
+class Observations {
+ public:
+  bool are_new(const Measured& one, const Measured& other) {
+    if (one.result.empty() || other.result.empty()) return true;
+    return seen_.emplace(one.result, other.result).second;
+  }
+
+ private:
+  std::set<std::pair<std::string_view, std::string_view>> seen_;
 };
 
 /// A seed of a scenario; or a structure. Sums go by this order, whatever that of the runs.
@@ -41,10 +55,10 @@ std::optional<Measured> measured(const RunMetric& metric, const MissionRow& miss
                                  std::optional<double> limit) {
   const std::optional<double> value = metric.value(mission);
   if (!value || !metric.is_effort()) {
-    return value ? std::optional(Measured{*value, *value}) : std::nullopt;
+    return value ? std::optional(Measured{*value, *value, mission.result_sha256}) : std::nullopt;
   }
   if (!limit) return std::nullopt;
-  return Measured{*value, std::min(*value, *limit)};
+  return Measured{*value, std::min(*value, *limit), mission.result_sha256};
 }
 
 Values values_of(Comparison& comparison, std::span<const MissionRow> missions, std::size_t scenario,
@@ -108,9 +122,10 @@ std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_i
 std::optional<Contrast> contrast_of(const std::map<Pair, Measured>& method,
                                     const std::map<Pair, Measured>& baseline) {
   std::vector<double> differences, of_means, base;
+  Observations pairs;
   for (const auto& [pair, its] : method) {
     const auto at = baseline.find(pair);
-    if (at == baseline.end()) continue;
+    if (at == baseline.end() || !pairs.are_new(its, at->second)) continue;
     const Measured& other = at->second;
     // infinite - infinite is no number
     differences.push_back(its.value == other.value ? 0.0 : its.value - other.value);
@@ -151,7 +166,9 @@ std::optional<double> mean_rank(const std::vector<std::vector<double>>& blocks,
 
 MethodFigure figure_of(const std::map<Pair, Measured>& of_method, bool is_effort) {
   std::vector<double> values, means;
+  Observations missions;
   for (const auto& [pair, its] : of_method) {
+    if (!missions.are_new(its, its)) continue;
     values.push_back(its.value);
     means.push_back(its.mean);
   }
@@ -200,6 +217,24 @@ bool flew_the_same(std::span<const MissionRow> missions, const std::string& a,
   return shared > 0;
 }
 
+Varies what_varies(std::span<const MissionRow> missions, const std::string& scenario) {
+  std::map<std::string, std::vector<std::string>> results;  // by method
+  bool is_noisy = false;
+  for (const MissionRow& mission : missions) {
+    if (mission.scenario != scenario) continue;
+    results[mission.method].push_back(mission.result_sha256);
+    is_noisy = is_noisy || mission.find("seeds_key_noise").value_or(0.0) > 0.0;
+  }
+  std::erase_if(results, [](const auto& of) { return of.second.size() < 2; });
+  const auto same = std::ranges::count_if(results, [](const auto& of) {
+    const std::string& first = of.second.front();
+    return !first.empty() && std::ranges::count(of.second, first) == std::ssize(of.second);
+  });
+  if (same > 0 && same == std::ssize(results)) return Varies::nothing;
+  if (is_noisy) return Varies::start_and_noise;
+  return same > 0 ? Varies::draws : Varies::start;
+}
+
 /// All that is not a figure, the baseline apart. The structure of each scenario.
 std::vector<std::string> add_scenarios(Comparison& comparison,
                                        std::span<const MissionRow> missions) {
@@ -211,14 +246,13 @@ std::vector<std::string> add_scenarios(Comparison& comparison,
       structures.push_back(structure);
       comparison.area_samples.push_back(
           static_cast<std::size_t>(mission.find("area_samples").value_or(0.0)));
-      comparison.is_noisy.push_back(false);
+      comparison.varies.push_back(what_varies(missions, mission.scenario));
       Budgets& budgets = comparison.budgets.emplace_back();
       for (std::size_t i = 0; i < budgets.size(); ++i) {
         budgets[i] = mission.find(fmt::format("budget_{}", kEffortNames[i])).value_or(0.0);
       }
     }
     structures[scenario] = std::min(structures[scenario], structure);
-    if (mission.find("seeds_key_noise").value_or(0.0) > 0.0) comparison.is_noisy[scenario] = true;
     index_in(comparison.methods, mission.method);
   }
   comparison.metrics = metrics_of(missions);

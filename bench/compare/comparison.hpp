@@ -25,6 +25,9 @@ enum class Verdict {
   significant       // the signed-rank test rejects at 5 %, after Holm
 };
 
+/// What the seeds of a scenario move, as far as its missions show it.
+enum class Varies { start, start_and_noise, draws, nothing };
+
 /// A method against the baseline, over the seeds or structures that both have. Where a run did not
 /// reach what the metric asks for, it is worse than any that did, and as good as another that did
 /// not; in means it counts as the budget, the largest of the methods'.
@@ -42,7 +45,8 @@ struct Contrast {
 double least_p_holm(const Contrast& contrast);
 
 /// A method by a metric in a scenario, over its seeds; or in all structures, each of them the mean
-/// of its runs (of an effort, for median, ranks and test: the median).
+/// of its runs (of an effort, for median, ranks and test: the median). Seeds that flew one and the
+/// same mission (by result_sha256) are one observation, here and in a contrast.
 struct MethodFigure {
   std::size_t scenario = 0;  // indices into Comparison's lists
   std::size_t metric = 0;
@@ -60,7 +64,7 @@ struct Comparison {
   std::vector<std::string> scenarios;
   std::size_t structures = 0;             // different ones: the pairs, if there are several
   std::vector<std::size_t> area_samples;  // by scenario, of the reference: what coverage counts
-  std::vector<bool> is_noisy;  // by scenario: seeds key noise of sensors, estimate or air, too
+  std::vector<Varies> varies;             // by scenario
   std::vector<std::string> methods;
   std::size_t baseline = 0;
   std::vector<Budgets> budgets;       // by scenario

@@ -197,17 +197,22 @@ void add_pair_notes(std::vector<std::string>& notes, const Comparison& compariso
     notes.emplace_back(
         "the pairs are the seeds of one structure: p and verdict say nothing of others");
   }
-  std::array<std::vector<std::string>, 2> names;
-  for (std::size_t s = 0; s < comparison.is_noisy.size(); ++s) {
-    names[comparison.is_noisy[s] ? 1 : 0].push_back(comparison.scenarios[s]);
-  }
   constexpr std::array kVaries = {
+      // by Varies
       "the start is what varies over the seeds, and what a planner draws by them: sensors and "
       "poses are exact",
-      "start and noise are what varies over the seeds"};
-  for (std::size_t noisy : {0U, 1U}) {
-    if (names[noisy].empty()) continue;
-    notes.push_back(fmt::format("{}: {}", fmt::join(names[noisy], ", "), kVaries[noisy]));
+      "start and noise are what varies over the seeds",
+      "what a planner draws by them is all that varies over the seeds: start, sensors and poses "
+      "are the same, and missions that are the very same count once",
+      "nothing varies over the seeds (no start.jitter_m, exact sensors): each method flew one and "
+      "the same mission, which counts once"};
+  std::array<std::vector<std::string>, kVaries.size()> names;
+  for (std::size_t s = 0; s < comparison.varies.size(); ++s) {
+    names[static_cast<std::size_t>(comparison.varies[s])].push_back(comparison.scenarios[s]);
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) continue;
+    notes.push_back(fmt::format("{}: {}", fmt::join(names[i], ", "), kVaries[i]));
   }
 }
 

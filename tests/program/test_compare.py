@@ -126,6 +126,16 @@ def test_compare_names_all_faults_before_it_flies(run, tmp_path, words, says):
     assert not (tmp_path / 'out').exists()
 
 
+def test_seeds_of_a_start_that_never_moves_are_one_observation(run, tmp_path):
+    smoke = (REPOSITORY / 'scenarios/smoke.yaml').read_text()
+    (tmp_path / 'still.yaml').write_text(smoke.replace(', jitter_m: [0.3, 0.2, 0.2]', ''))
+    table = run('compare still.yaml --utilities proposed,isler --seeds 3 --no-ceiling --format json '
+                f'{FEW} {SMALL} --out .').json
+    assert {row['verdict'] for row in rows(table, 'coverage at 0.05 m (%)')} == {
+        'baseline', 'one seed: no test'}
+    assert 'nothing varies over the seeds' in str(table['notes'])
+
+
 def test_table_has_the_papers_row_ours_the_oracles_and_the_ceiling(run):
     # the smallest scenario, under the name of one that the paper has figures of; few positions,
     # whose survey all share

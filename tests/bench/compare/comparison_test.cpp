@@ -124,6 +124,26 @@ TEST(Compare, MethodsThatFlewTheSameMissionsAreNamed) {
   EXPECT_FALSE(notes_say(compare(runs, "base", {}), "the very missions"));
 }
 
+TEST(Compare, SeedsThatFlewOneAndTheSameMissionAreOneObservation) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const auto& [method, coverage] : {std::pair("a", 0.90), std::pair("b", 0.92)}) {
+      runs.push_back(run(method, seed, coverage, 100));
+      runs.back().figures.result_sha256 = method;
+    }
+  }
+  const Comparison one = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(one, 1).verdict, Verdict::untested);
+  EXPECT_EQ(find_figure(one, 0, kCoverageMetric, 1)->estimate.n, 1U);
+  EXPECT_TRUE(notes_say(one, "aircraft: nothing varies over the seeds"));
+  for (ComparedRun& run : runs) {
+    if (run.method == "b") run.figures.result_sha256 += fmt::format("{}", run.seed);
+  }
+  const Comparison drawn = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(drawn, 1).difference.n, 6U);
+  EXPECT_TRUE(notes_say(drawn, "aircraft: what a planner draws by them is all that varies"));
+}
+
 TEST(Compare, MeanCoverageIsOverTheBudgetOfTheScenario) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
