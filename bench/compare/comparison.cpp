@@ -241,7 +241,8 @@ std::vector<std::string> add_scenarios(Comparison& comparison,
   std::vector<std::string> structures;
   for (const MissionRow& mission : missions) {
     const std::size_t scenario = index_in(comparison.scenarios, mission.scenario);
-    const std::string& structure = mission.structure.empty() ? mission.scenario : mission.structure;
+    const std::string& id = mission.structure_id();
+    const std::string& structure = id.empty() ? mission.scenario : id;
     if (scenario == structures.size()) {
       structures.push_back(structure);
       comparison.area_samples.push_back(

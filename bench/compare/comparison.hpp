@@ -80,7 +80,7 @@ struct Comparison {
 };
 
 /// Scenarios and methods in the order of their first runs; no figure depends on that order.
-/// Scenarios of one structure (MissionRow::structure; without one the scenario) are one pair.
+/// Scenarios of one structure (MissionRow::structure_id(); without one the scenario) are one pair.
 /// Requires a mission of the baseline, and no two of one scenario, method and seed.
 Comparison compare(std::span<const MissionRow> missions, const std::string& baseline);
 

@@ -34,6 +34,11 @@ struct MissionRow {
   Figures figures = {};
 
   std::optional<double> find(std::string_view name) const;
+  /// By which structures are told apart: files of one name may hold different meshes. The name of
+  /// those whose mesh is not known.
+  const std::string& structure_id() const {
+    return structure_sha256.empty() ? structure : structure_sha256;
+  }
 };
 
 /// Of the missions of a scenario, where any has the figure.

@@ -150,6 +150,17 @@ def test_rows_of_one_scenario_around_two_structures_are_of_two(run, tmp_path):
     run('compare --from aircraft.csv aircraft.csv', 'two rows of aircraft, base, seed 1', code=2)
 
 
+def test_files_of_one_name_are_as_many_structures_as_meshes(run, tmp_path):
+    rows = [dict(zip(COLUMNS, (f'{mesh}{method}', 'aircraft', 'part.obj', mesh * 64, method, '', 'c',
+                               'p', 'max_iterations', f'{mesh}{method}', 1, 0.9)))
+            for mesh in 'ab' for method in ('base', 'own')]
+    for mesh in 'ab':
+        write_rows(tmp_path / f'{mesh}.csv', [row for row in rows if row['structure_sha256'][0] == mesh])
+    table = run('compare --from a.csv b.csv --baseline base --format json').json
+    assert {row['scenario'] for row in table['rows']} == {
+        'part.obj (aaaaaaaa)', 'part.obj (bbbbbbbb)', 'all 2 structures'}
+
+
 def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
     for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
         drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json

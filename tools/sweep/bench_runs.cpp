@@ -200,7 +200,7 @@ BenchRuns read_rows(const std::vector<fs::path>& csvs) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const MissionRow& row : runs.rows) {
     const std::string name = row_name(row);
-    if (!seen.emplace(row.structure, name).second) throw BadInput("two rows of " + name);
+    if (!seen.emplace(row.structure_id(), name).second) throw BadInput("two rows of " + name);
   }
   runs.folders.resize(runs.rows.size());
   add_endings(runs);

@@ -107,16 +107,22 @@ BenchRuns runs_of(const CompareRequest& request, const std::string& baseline,
 
 /// Rows of tables as methods: without those that know the structure, and those of a setting beside
 /// the scenario's. Scenarios of one name that were flown around several structures are told apart
-/// by these.
+/// by these, and these by their meshes where their files have one name.
 void make_comparable(std::vector<MissionRow>& rows) {
   const std::vector<std::string_view> oracles = planners_that(&PlannerTraits::knows_structure);
   std::erase_if(rows, [&](const MissionRow& row) {
     return !row.setting.empty() || std::ranges::count(oracles, row.method) > 0;
   });
-  std::map<std::string, std::set<std::string>> structures;
-  for (const MissionRow& row : rows) structures[row.scenario].insert(row.structure);
+  std::map<std::string, std::set<std::string>> of_scenario, of_name;
+  for (const MissionRow& row : rows) {
+    of_scenario[row.scenario].insert(row.structure_id());
+    of_name[row.structure].insert(row.structure_id());
+  }
   for (MissionRow& row : rows) {
-    if (structures[row.scenario].size() > 1) row.scenario = row.structure;
+    if (of_scenario[row.scenario].size() < 2) continue;
+    row.scenario = of_name[row.structure].size() < 2
+                       ? row.structure
+                       : fmt::format("{} ({:.8})", row.structure, row.structure_id());
   }
 }
 

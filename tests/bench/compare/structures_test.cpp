@@ -116,6 +116,23 @@ TEST(CompareStructures, OverStructuresTheTestIsThatOfAllPermutationsOfTheirSigns
   EXPECT_NE(answers(c)[1].find("n = 10 structures"), std::string::npos);
 }
 
+TEST(CompareStructures, AStructureIsItsMeshWhateverItsFileIsCalled) {
+  const auto structures = [](const std::string& file, const std::string& sha256) {
+    std::vector<MissionRow> rows;
+    for (const std::string scenario : {"one", "two"}) {
+      for (const std::string method : {"a", "b"}) {
+        rows.push_back({.scenario = scenario, .method = method});
+        rows.back().structure = file.empty() ? scenario : file;
+        rows.back().structure_sha256 = sha256.empty() ? scenario : sha256;
+        rows.back().figures["within_coverage_0.05"] = 0.9;
+      }
+    }
+    return compare(rows, "a").structures;
+  };
+  EXPECT_EQ(structures("part.obj", ""), 2U);
+  EXPECT_EQ(structures("", "1a2b"), 1U);
+}
+
 /// All figures by name, to the last bit.
 std::map<std::string, std::vector<double>> named_figures(const Comparison& c) {
   std::map<std::string, std::vector<double>> all;
