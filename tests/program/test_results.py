@@ -161,6 +161,12 @@ def test_files_of_one_name_are_as_many_structures_as_meshes(run, tmp_path):
         'part.obj (aaaaaaaa)', 'part.obj (bbbbbbbb)', 'all 2 structures'}
 
 
+def test_a_table_of_two_structures_is_refused(run):
+    missions = REPOSITORY / 'bench/results/missions'
+    run(f'table --from {missions}/a340.csv {missions}/powerplant-dae.csv', 'aircraft', 'a340.obj',
+        'power_plant', 'powerplant.dae', code=2)
+
+
 def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
     for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
         drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json

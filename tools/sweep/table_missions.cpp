@@ -130,6 +130,21 @@ std::string command_of(const TableRequest& request, const BenchOptions& options,
   return command + (request.no_oracle ? " --no-oracle" : "");
 }
 
+/// A table is of one scenario around one structure: means over several would be of none.
+void need_one_scene(const std::vector<MissionRow>& rows) {
+  const MissionRow& first = rows.front();
+  for (const MissionRow& row : rows) {
+    if (row.scenario == first.scenario && row.structure_id() == first.structure_id()) continue;
+    const auto mesh = [](const MissionRow& of) {
+      return fmt::format("{:.8}", of.structure_sha256);
+    };
+    throw BadInput(fmt::format(
+        "--from: rows of {} around {} ({}) and of {} around {} ({}): a table is of one scenario "
+        "and structure; compare --from takes several",
+        first.scenario, first.structure, mesh(first), row.scenario, row.structure, mesh(row)));
+  }
+}
+
 /// What rows alone say, and the command that flew them.
 BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const BenchOptions& options,
                       const std::string& command) {
@@ -173,6 +188,7 @@ BenchTables tables_of(const PaperTable& paper, const BenchRuns& runs, const Benc
 BenchTables table_of_missions(const TableRequest& request, const BenchOptions& options) {
   if (!request.from.empty()) {
     const BenchRuns runs = read_rows(request.from);
+    need_one_scene(runs.rows);
     return tables_of(paper_table_of(runs.rows.front().scenario, request.from.front().string()),
                      runs, options, {});
   }
