@@ -161,6 +161,17 @@ def test_files_of_one_name_are_as_many_structures_as_meshes(run, tmp_path):
         'part.obj (aaaaaaaa)', 'part.obj (bbbbbbbb)', 'all 2 structures'}
 
 
+@pytest.mark.parametrize('figure, values, says', [
+    ('area_samples', (0, 155000), 'score.area_samples'),
+    ('budget_metres', (600, 40), 'score.budget_m')])
+def test_rows_of_unlike_measures_are_refused(run, tmp_path, figure, values, says):
+    write_rows(tmp_path / 'rows.csv', [
+        dict(zip([*COLUMNS, figure], (method, 'aircraft', 'aircraft', '', method, '', 'c', 'p',
+                                      'max_iterations', method, 1, 0.9, value)))
+        for method, value in zip(('base', 'own'), values)])
+    run('compare --from rows.csv --baseline base', 'aircraft', 'base', 'own', says, code=2)
+
+
 def test_a_table_of_two_structures_is_refused(run):
     missions = REPOSITORY / 'bench/results/missions'
     run(f'table --from {missions}/a340.csv {missions}/powerplant-dae.csv', 'aircraft', 'a340.obj',

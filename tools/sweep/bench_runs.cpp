@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include "bench/compare/paper_figures.hpp"
 #include "bench/limits/ceiling.hpp"
@@ -122,19 +125,57 @@ BenchRuns collect(const std::vector<Cell>& cells, const std::vector<CellOutcome>
   return collected;
 }
 
-/// Before anything is flown: coverages of unlike voxels cannot be set beside each other.
-void need_one_reference(const std::vector<Cell>& cells) {
+constexpr const char* kOtherVoxels =
+    "count different voxels (score.reference, score.area_samples, score.region_m, "
+    "planner.floor_z_m)";
+constexpr const char* kOtherBudgets =
+    "have different budgets (score.budget_views, score.budget_m, score.budget_s)";
+
+[[noreturn]] void refuse(const std::string& scenario, const std::string& one,
+                         const std::string& other, const char* what) {
+  throw BadInput(
+      fmt::format("{}: {} and {} {}: they cannot be compared", scenario, one, other, what));
+}
+
+/// Before anything is flown: what is measured by unlike voxels or budgets cannot be set beside each
+/// other.
+void need_one_measure(const std::vector<Cell>& cells) {
   std::map<std::string, const Cell*> firsts;
-  const auto samples = [](const Cell& cell) {
-    return reference_config(cell.resolved).area_samples;
+  const auto counted = [](const Cell& cell) {
+    const ReferenceConfig config = reference_config(cell.resolved);
+    const Box3& region = config.region_m;
+    return std::tuple(config.area_samples, config.floor_z_m, region.min(), region.max());
+  };
+  const auto budgets = [](const Cell& cell) {
+    const ScoreConfig& score = cell.resolved.score;
+    return std::tuple(score.budget_views, score.budget_m, score.budget_s);
   };
   for (const Cell& cell : cells) {
     const Cell& first = *firsts.try_emplace(cell.scenario, &cell).first->second;
-    if (samples(cell) == samples(first)) continue;
-    throw BadInput(
-        fmt::format("{}: {} and {} count different voxels (score.reference, score.area_samples): "
-                    "their coverages cannot be compared",
-                    cell.scenario, first.method, cell.method));
+    if (counted(cell) != counted(first)) {
+      refuse(cell.scenario, first.method, cell.method, kOtherVoxels);
+    }
+    if (budgets(cell) != budgets(first)) {
+      refuse(cell.scenario, first.method, cell.method, kOtherBudgets);
+    }
+  }
+}
+
+/// The same of rows, as far as they know it.
+void need_one_measure(const std::vector<MissionRow>& rows) {
+  constexpr std::array kMeasures = {
+      std::pair("area_samples", kOtherVoxels), std::pair("budget_views", kOtherBudgets),
+      std::pair("budget_metres", kOtherBudgets), std::pair("budget_seconds", kOtherBudgets)};
+  for (const auto& [figure, what] : kMeasures) {
+    std::map<std::pair<std::string, std::string>, const MissionRow*> firsts;
+    for (const MissionRow& row : rows) {
+      if (!row.find(figure)) continue;
+      const std::pair scene(row.scenario, row.structure_id());
+      const MissionRow& first = *firsts.try_emplace(scene, &row).first->second;
+      if (row.find(figure) != first.find(figure)) {
+        refuse(row.scenario, row_name(first), row_name(row), what);
+      }
+    }
   }
 }
 
@@ -159,7 +200,7 @@ std::vector<std::uint64_t> seeds_from(std::uint64_t first, int count) {
 
 BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options,
                     const Ceilings& ceilings, const TakeRow& take) {
-  need_one_reference(cells);
+  need_one_measure(cells);
   std::vector<MissionRow> rows(cells.size());
   const auto on_done = [&](std::size_t i, const CellOutcome& outcome) {
     rows[i] = row_of(cells[i], outcome.run, ceilings);
@@ -181,7 +222,7 @@ BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options,
 
 BenchRuns read_cells(const std::vector<Cell>& cells, const fs::path& folder,
                      const Ceilings& ceilings) {
-  need_one_reference(cells);
+  need_one_measure(cells);
   std::vector<CellOutcome> outcomes;
   std::vector<MissionRow> rows(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -202,6 +243,7 @@ BenchRuns read_rows(const std::vector<fs::path>& csvs) {
     const std::string name = row_name(row);
     if (!seen.emplace(row.structure_id(), name).second) throw BadInput("two rows of " + name);
   }
+  need_one_measure(runs.rows);
   runs.folders.resize(runs.rows.size());
   add_endings(runs);
   return runs;

@@ -65,7 +65,7 @@ Ceilings ceilings_of(const std::vector<Cell>& cells, const std::string& baseline
 using TakeRow = std::function<void(std::size_t cell, const std::filesystem::path& run, MissionRow)>;
 
 /// Flies what is missing and reads all. Throws CommandFailed when it is interrupted, BadInput
-/// before that for cells of a scenario whose coverages are of unlike voxels.
+/// before that for cells of a scenario whose coverages are of unlike voxels or budgets.
 BenchRuns fly_cells(const std::vector<Cell>& cells, const BenchOptions& options,
                     const Ceilings& ceilings = {}, const TakeRow& take = {});
 
@@ -74,7 +74,8 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path
                      const Ceilings& ceilings = {});
 
 /// The rows of missions that an earlier program flew, from files. Throws BadInput as
-/// read_missions(), and for two rows of one mission in different files.
+/// read_missions(), for two rows of one mission in different files, and for rows of a scenario
+/// whose coverages are of unlike voxels or budgets.
 BenchRuns read_rows(const std::vector<std::filesystem::path>& csvs);
 
 /// The rows of the cells with their ceilings, from options.missions as far as it has them, else
