@@ -181,6 +181,7 @@ MethodFigure figure_of(const std::map<Pair, Measured>& of_method, bool is_effort
 void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metric,
                  const Values& values) {
   const RunMetric& its = comparison.metrics[metric];
+  const bool is_judged = comparison.is_judged(scenario, metric);
   const auto blocks = rank_blocks(values, its.higher_is_better);
   const std::size_t first = comparison.figures.size();
   for (std::size_t method = 0; method < values.size(); ++method) {
@@ -190,11 +191,11 @@ void add_figures(Comparison& comparison, std::size_t scenario, std::size_t metri
     figure.scenario = scenario;
     figure.metric = metric;
     figure.method = method;
-    if (its.is_judged) figure.rank = mean_rank(blocks, method);
+    if (is_judged) figure.rank = mean_rank(blocks, method);
     if (method == comparison.baseline) continue;
     figure.contrast = contrast_of(values[method], values[comparison.baseline]);
   }
-  if (!its.is_judged || !comparison.is_tested(scenario)) return;
+  if (!is_judged || !comparison.is_tested(scenario)) return;
   std::vector<Contrast*> family;
   for (std::size_t i = first; i < comparison.figures.size(); ++i) {
     if (comparison.figures[i].contrast) family.push_back(&*comparison.figures[i].contrast);
@@ -248,17 +249,22 @@ std::vector<std::string> add_scenarios(Comparison& comparison,
       comparison.area_samples.push_back(
           static_cast<std::size_t>(mission.find("area_samples").value_or(0.0)));
       comparison.varies.push_back(what_varies(missions, mission.scenario));
+      comparison.is_over_budget.push_back(false);
       Budgets& budgets = comparison.budgets.emplace_back();
       for (std::size_t i = 0; i < budgets.size(); ++i) {
         budgets[i] = mission.find(fmt::format("budget_{}", kEffortNames[i])).value_or(0.0);
       }
     }
     structures[scenario] = std::min(structures[scenario], structure);
+    const auto within = mission.find("within_iterations");
+    if (within && mission.find("iterations") > within) comparison.is_over_budget[scenario] = true;
     index_in(comparison.methods, mission.method);
   }
   comparison.metrics = metrics_of(missions);
   comparison.structures = std::set(structures.begin(), structures.end()).size();
   if (comparison.structures > 1) {
+    const std::vector<bool>& over = comparison.is_over_budget;
+    comparison.is_over_budget.push_back(std::ranges::count(over, true) > 0);
     comparison.scenarios.push_back(fmt::format("all {} structures", comparison.structures));
   }
   return structures;

@@ -65,6 +65,7 @@ struct Comparison {
   std::size_t structures = 0;             // different ones: the pairs, if there are several
   std::vector<std::size_t> area_samples;  // by scenario, of the reference: what coverage counts
   std::vector<Varies> varies;             // by scenario
+  std::vector<bool> is_over_budget;  // by scenario: some missions took more views than the budget
   std::vector<std::string> methods;
   std::size_t baseline = 0;
   std::vector<Budgets> budgets;       // by scenario
@@ -77,6 +78,11 @@ struct Comparison {
   bool is_of_all(std::size_t scenario) const { return scenario == area_samples.size(); }
   /// Whether methods are tested there: over structures if there are several, else over seeds.
   bool is_tested(std::size_t scenario) const { return is_of_all(scenario) == (structures > 1); }
+  /// Whether methods can be better there by the metric.
+  bool is_judged(std::size_t scenario, std::size_t metric) const {
+    return metrics[metric].is_judged &&
+           !(metrics[metric].is_of_all_views && is_over_budget[scenario]);
+  }
 };
 
 /// Scenarios and methods in the order of their first runs; no figure depends on that order.

@@ -238,6 +238,13 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "distance, flight time, views, density and entropy reduction are told, not judged: a mission "
       "that ends early has little of them for that reason alone");
   for (std::size_t s = 0; s < samples.size(); ++s) {
+    if (!comparison.is_over_budget[s]) continue;
+    all.push_back(fmt::format(
+        "{}: some missions took more views than the budget; F and Chamfer distance are of all of "
+        "them, and so told, not judged",
+        comparison.scenarios[s]));
+  }
+  for (std::size_t s = 0; s < samples.size(); ++s) {
     const std::string where = is_one_reference ? "" : comparison.scenarios[s] + ": ";
     all.push_back(fmt::format("{}coverage of voxels {}", where, reference_words(samples[s])));
     if (is_one_reference) break;

@@ -21,6 +21,8 @@ struct RunMetric {
   bool is_judged = true;
   /// Of an effort the figure that says what a mission which used up its budget has spent.
   std::string limit_key = {};
+  /// Of the whole cloud, also of views beyond the budget: not judged where a mission has some.
+  bool is_of_all_views = false;
 
   std::optional<double> value(const MissionRow& mission) const;
   bool is_effort() const { return !limit_key.empty(); }

@@ -144,6 +144,30 @@ TEST(Compare, SeedsThatFlewOneAndTheSameMissionAreOneObservation) {
   EXPECT_TRUE(notes_say(drawn, "aircraft: what a planner draws by them is all that varies"));
 }
 
+/// Coverage is cut there, distances are of the whole cloud.
+TEST(Compare, ViewsBeyondTheBudgetWinNoVerdict) {
+  std::vector<MissionRow> rows;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (const std::string method : {"base", "longer"}) {
+      const bool is_longer = method == "longer";
+      MissionRow& row = rows.emplace_back(mission_row(run(method, seed, 0.9, 100).figures));
+      row.scenario = "aircraft";
+      row.method = method;
+      row.seed = seed;
+      row.figures["f_0.05"] = (is_longer ? 0.9 : 0.8) + 0.001 * static_cast<double>(seed);
+      row.figures["iterations"] = is_longer ? 30.0 : 20.0;
+      row.figures["within_iterations"] = 20.0;
+    }
+  }
+  constexpr std::string_view kF = "F at 0.05 m (%)";
+  const Comparison c = compare(rows, "base");
+  EXPECT_EQ(find_figure(c, 0, kF, 1)->contrast->verdict, Verdict::told);
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::equal);
+  EXPECT_TRUE(notes_say(c, "aircraft: some missions took more views than the budget"));
+  for (MissionRow& row : rows) row.figures["within_iterations"] = row.figures["iterations"];
+  EXPECT_EQ(find_figure(compare(rows, "base"), 0, kF, 1)->contrast->verdict, Verdict::significant);
+}
+
 TEST(Compare, MeanCoverageIsOverTheBudgetOfTheScenario) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
