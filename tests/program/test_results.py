@@ -178,6 +178,22 @@ def test_a_table_of_two_structures_is_refused(run):
         'power_plant', 'powerplant.dae', code=2)
 
 
+def test_rows_are_hits_with_the_ceiling_in_use_alone(run, tmp_path):
+    compare = ('compare smoke --utilities proposed,isler --seeds 1 --quiet --format json --out . '
+               f'--missions rows.csv --set planner.termination.max_iterations=2 {SMALL}')
+    run(f'{compare} --no-ceiling')
+    for percent in (90, 80):
+        table = run(f'{compare} --ceiling-at {percent}').json
+        share = {row['metric'].split(' (')[0]: row['mean'] for row in table['rows']}
+        assert share['share of ceiling at 0.05 m'] * percent / 100 == pytest.approx(
+            share['coverage at 0.05 m'])
+    # the lines of one method from elsewhere
+    rows = rows_of(tmp_path / 'rows.csv')
+    rows[0]['ceiling_0.05'] = 0.5
+    write_rows(tmp_path / 'rows.csv', rows)
+    run('compare --from rows.csv', 'smoke: not one ceiling: 50 % (proposed), 80 % (isler)')
+
+
 def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
     for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
         drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json

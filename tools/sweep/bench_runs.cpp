@@ -246,7 +246,28 @@ BenchRuns read_rows(const std::vector<fs::path>& csvs) {
   need_one_measure(runs.rows);
   runs.folders.resize(runs.rows.size());
   add_endings(runs);
+  add_ceiling_notes(runs);
   return runs;
+}
+
+void add_ceiling_notes(BenchRuns& runs) {
+  std::map<std::pair<std::string, std::string>,
+           std::map<std::optional<double>, std::set<std::string>>>
+      methods;  // by scenario with structure, and ceiling
+  for (const MissionRow& row : runs.rows) {
+    methods[{row.scenario, row.structure_id()}][row.find("ceiling_0.05")].insert(row.method);
+  }
+  for (const auto& [scene, by_ceiling] : methods) {
+    if (by_ceiling.size() < 2) continue;
+    std::vector<std::string> words;
+    for (const auto& [ceiling, names] : by_ceiling) {
+      const std::string percent = ceiling ? fmt::format("{:.4g} %", 100.0 * *ceiling) : "none";
+      words.push_back(fmt::format("{} ({})", percent, fmt::join(names, ", ")));
+    }
+    runs.notes.push_back(fmt::format(
+        "{}: not one ceiling: {}; shares of it and efforts to reach them are not comparable",
+        scene.first, fmt::join(words, ", ")));
+  }
 }
 
 Ceiling ceiling_of(const Scenario& scenario, const BenchOptions& options) {

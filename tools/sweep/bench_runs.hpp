@@ -79,10 +79,14 @@ BenchRuns read_cells(const std::vector<Cell>& cells, const std::filesystem::path
 BenchRuns read_rows(const std::vector<std::filesystem::path>& csvs);
 
 /// The rows of the cells with their ceilings, from options.missions as far as it has them, else
-/// flown; the file takes them as they come. Rows of another program hold as long as this one flies
+/// flown; the file takes them as they come. Rows with another ceiling than the one in use are not
+/// there: their runs are read again. Rows of another program hold as long as this one flies
 /// a sample of them to the same result: of each scenario and method the first cell.
 BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& baseline,
                         const BenchOptions& options, const std::string& setting = "");
+
+/// Names the scenarios whose rows have not one ceiling, with who has which.
+void add_ceiling_notes(BenchRuns& runs);
 
 /// What shares of the ceiling are of, when it is given.
 void add_given_ceiling_note(const BenchOptions& options, std::vector<std::string>& notes);

@@ -22,6 +22,13 @@ using Rows = std::map<std::string, MissionRow>;  // by id
 /// Of each scenario and method, in the order of the cells: their ids.
 using Kinds = std::map<std::pair<std::string, std::string>, std::vector<std::size_t>>;
 
+/// Whether its shares are of the ceiling in use, as far as that is known without a search.
+bool has_ceiling_in_use(const MissionRow& row, const BenchOptions& options) {
+  const auto found = row.find("physical_ceiling_0.05");
+  if (options.no_ceiling || !options.ceiling_percent) return options.no_ceiling || found;
+  return !found && row.find("ceiling_0.05") == 0.01 * *options.ceiling_percent;
+}
+
 /// Leaves the rows of this program, and those of a kind whose first one it flies to the same
 /// result.
 void keep_what_holds(const std::vector<Cell>& cells, const std::vector<std::string>& ids,
@@ -72,7 +79,9 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
   std::error_code none;
   if (std::filesystem::exists(options.missions, none)) file = read_missions(options.missions);
   Rows known;
-  for (const MissionRow& row : file) known.emplace(row.id, row);
+  for (const MissionRow& row : file) {
+    if (has_ceiling_in_use(row, options)) known.emplace(row.id, row);
+  }
   keep_what_holds(cells, ids, options, known);
 
   BenchRuns all;
@@ -88,6 +97,11 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
     to_fly.push_back(cells[i]);
     places.push_back(i);
   }
+  // the baseline says the ceiling, whether it is flown or known
+  std::set<std::string> scenes;
+  for (const Cell& cell : to_fly) scenes.insert(cell.scenario);
+  std::vector<Cell> of_scenes = cells;
+  std::erase_if(of_scenes, [&](const Cell& cell) { return !scenes.contains(cell.scenario); });
   const auto write = [&] {
     all.rows.clear();
     all.folders.clear();
@@ -114,10 +128,12 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
     write();
     write_s = since_write.elapsed_s();
   };
-  const BenchRuns flown = fly_cells(to_fly, options, ceilings_of(to_fly, baseline, options), take);
+  const BenchRuns flown =
+      fly_cells(to_fly, options, ceilings_of(of_scenes, baseline, options), take);
   all.notes = flown.notes;
   all.failures = flown.failures;
   write();
+  add_ceiling_notes(all);
   return all;
 }
 
