@@ -194,6 +194,16 @@ def test_rows_are_hits_with_the_ceiling_in_use_alone(run, tmp_path):
     run('compare --from rows.csv', 'smoke: not one ceiling: 50 % (proposed), 80 % (isler)')
 
 
+def test_two_commands_lose_no_rows_of_one_file(gnbv, tmp_path):
+    words = f'--quiet --seeds 3 --no-ceiling --missions rows.csv {SMALL} --set planner.termination.max_iterations='
+    both = [subprocess.Popen([gnbv.path, *f'compare smoke --utilities {two} --out {out} {words}{n}'.split()],
+                             cwd=tmp_path, stdout=subprocess.DEVNULL)
+            for two, out, n in (('proposed,isler', 'a', 2), ('bircher,random', 'b', 3))]
+    assert [one.wait() for one in both] == [0, 0]
+    assert sorted(row['method'] for row in rows_of(tmp_path / 'rows.csv')) == sorted(
+        3 * ['proposed', 'isler', 'bircher', 'random'])
+
+
 def test_anybody_can_repeat_the_draw_of_what_is_held_out(run, tmp_path):
     for kind, draw in (('tower', 1), ('tower', 2), ('hull', 1)):
         drawn = run(f'asset random --kind {kind} --drawn-from 0123abcd --draw {draw} -o m.ply --json').json

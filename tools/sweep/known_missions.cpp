@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "sim/core/file.hpp"
@@ -57,14 +59,27 @@ void keep_what_holds(const std::vector<Cell>& cells, const std::vector<std::stri
   }
 }
 
-/// The file with these rows in place of those of the same missions.
-void write_rows(std::vector<MissionRow> file, const std::vector<MissionRow>& rows,
-                const std::filesystem::path& path) {
+/// The rows of a file, if there is one.
+std::vector<MissionRow> rows_in(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none) ? read_missions(path) : std::vector<MissionRow>();
+}
+
+/// Puts the rows into the file, in place of those of the same missions. Other commands may have
+/// written to it since it was read.
+void write_rows(const std::vector<MissionRow>& rows, const std::filesystem::path& path) {
+  const std::filesystem::path lock_file = path.string() + ".lock";
+  std::optional<FileLock> lock;
+  while (!(lock = FileLock::take(lock_file))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::vector<MissionRow> file = rows_in(path);
   std::set<std::string> names;
   for (const MissionRow& row : rows) names.insert(row_name(row));
   std::erase_if(file, [&](const MissionRow& row) { return names.contains(row_name(row)); });
   file.insert(file.end(), rows.begin(), rows.end());
   write_file_atomically(path, missions_csv(file));
+  std::filesystem::remove(lock_file);
 }
 
 }  // namespace
@@ -75,11 +90,8 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
   std::vector<std::string> ids;
   for (const Cell& cell : cells) ids.push_back(namer.id_of(cell.resolved));
 
-  std::vector<MissionRow> file;
-  std::error_code none;
-  if (std::filesystem::exists(options.missions, none)) file = read_missions(options.missions);
   Rows known;
-  for (const MissionRow& row : file) {
+  for (const MissionRow& row : rows_in(options.missions)) {
     if (has_ceiling_in_use(row, options)) known.emplace(row.id, row);
   }
   keep_what_holds(cells, ids, options, known);
@@ -114,7 +126,7 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
       row.setting = setting;
       all.folders.push_back(folders[i]);
     }
-    if (!options.missions.empty()) write_rows(file, all.rows, options.missions);
+    if (!options.missions.empty()) write_rows(all.rows, options.missions);
   };
   Stopwatch since_write;
   double write_s = 0.0;
