@@ -227,6 +227,12 @@ std::vector<std::string> notes(const Comparison& comparison) {
   }
   add_pair_notes(all, comparison);
   add_power_notes(all, comparison);
+  if (std::ranges::any_of(comparison.figures, [](const MethodFigure& figure) {
+        return figure.contrast && figure.contrast->test.n > kMostExact;
+      })) {
+    all.push_back(fmt::format(
+        "p of more than {} pairs that differ is the test's normal approximation", kMostExact));
+  }
   if (auto note = formulas_note(comparison.methods)) all.push_back(std::move(*note));
   all.push_back(fmt::format(
       "mean: ± its 95 % interval over the pairs (Student's t); rank: mean over the pairs that all "

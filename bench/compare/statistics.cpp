@@ -69,6 +69,12 @@ SignedRankTest wilcoxon_signed_rank(std::span<const double> differences) {
   for (std::size_t i = 0; i < ranks.size(); ++i) test.w_plus += positive[i] ? ranks[i] : 0.0;
   const double total = std::accumulate(ranks.begin(), ranks.end(), 0.0);
   const double smaller = std::min(test.w_plus, total - test.w_plus);
+  if (test.n > kMostExact) {
+    // the sum's variance is that of its n signs, whether ranks are shared or not
+    const double squares = std::inner_product(ranks.begin(), ranks.end(), ranks.begin(), 0.0);
+    test.p = std::erfc((0.5 * total - smaller) / std::sqrt(0.5 * squares));
+    return test;
+  }
   test.p = std::min(1.0, 2.0 * lower_tail(ranks, smaller));
   return test;
 }

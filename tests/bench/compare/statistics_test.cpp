@@ -117,6 +117,22 @@ TEST(Wilcoxon, ItsLeastPIsThatOfDifferencesOfOneSign) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>{0.0, 0.0}).n, 0U);
 }
 
+/// scipy.stats.wilcoxon of SciPy 1.17: exact up to kMostExact differences, beyond that
+/// mode='approx'.
+TEST(Wilcoxon, OfManyDifferencesIsSciPys) {
+  const auto p_of = [](int n, int negative, double step) {
+    std::vector<double> differences;
+    for (int i = 1; i <= n; ++i) {
+      const double size = std::nearbyint(i / step);  // halves to even, as NumPy's round
+      differences.push_back((i * 7919) % 10 >= negative ? size : -size);
+    }
+    return wilcoxon_signed_rank(differences).p;
+  };
+  EXPECT_NEAR(p_of(200, 4, 1.0), 0.030632721723134138, 1e-12);
+  EXPECT_NEAR(p_of(300, 3, 1.0), 6.811256036093387e-09, 1e-20);
+  EXPECT_NEAR(p_of(300, 4, 7.0), 0.005932151844785626, 1e-12);  // shared ranks, some 0
+}
+
 TEST(Wilcoxon, RefusesATrueHypothesisAsRarelyAsItSays) {
   int refused = 0;
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
