@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -104,6 +105,13 @@ Values over_structures(std::span<const Values> by_scenario, std::span<const std:
   return all;
 }
 
+/// What differs in its last bits alone is equal: they depend on the order of a sum.
+double difference_of(double one, double other) {
+  if (one == other) return 0.0;  // infinite - infinite is no number
+  const double difference = one - other;
+  return std::abs(difference) < 1e-9 * std::max(std::abs(one), std::abs(other)) ? 0.0 : difference;
+}
+
 /// Ranks of the methods, a row a pair that all of them have.
 std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_is_better) {
   std::vector<std::vector<double>> blocks;
@@ -112,7 +120,10 @@ std::vector<std::vector<double>> rank_blocks(const Values& values, bool higher_i
     for (const auto& of_method : values) {
       const auto at = of_method.find(pair);
       if (at == of_method.end()) continue;
-      costs.push_back(higher_is_better ? -at->second.value : at->second.value);
+      const double cost = higher_is_better ? -at->second.value : at->second.value;
+      const auto same = std::ranges::find_if(
+          costs, [&](double earlier) { return difference_of(earlier, cost) == 0.0; });
+      costs.push_back(same == costs.end() ? cost : *same);
     }
     if (costs.size() == values.size()) blocks.push_back(ranks_of(costs));
   }
@@ -127,9 +138,8 @@ std::optional<Contrast> contrast_of(const std::map<Pair, Measured>& method,
     const auto at = baseline.find(pair);
     if (at == baseline.end() || !pairs.are_new(its, at->second)) continue;
     const Measured& other = at->second;
-    // infinite - infinite is no number
-    differences.push_back(its.value == other.value ? 0.0 : its.value - other.value);
-    of_means.push_back(its.mean - other.mean);
+    differences.push_back(difference_of(its.value, other.value));
+    of_means.push_back(difference_of(its.mean, other.mean));
     base.push_back(other.mean);
   }
   if (base.empty()) return std::nullopt;

@@ -168,6 +168,17 @@ TEST(Compare, ViewsBeyondTheBudgetWinNoVerdict) {
   EXPECT_EQ(find_figure(compare(rows, "base"), 0, kF, 1)->contrast->verdict, Verdict::significant);
 }
 
+TEST(Compare, WhatDiffersInItsLastBitsIsEqual) {
+  std::vector<ComparedRun> runs;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    runs.push_back(run("a", seed, 0.3, 100));
+    runs.push_back(run("b", seed, 0.1 + 0.2, 100));
+  }
+  const Comparison c = compare(runs, "a", {});
+  EXPECT_EQ(coverage_contrast(c, 1).verdict, Verdict::equal);
+  EXPECT_EQ(find_figure(c, 0, kCoverageMetric, 1)->rank, 1.5);
+}
+
 TEST(Compare, MeanCoverageIsOverTheBudgetOfTheScenario) {
   const std::vector<ComparedRun> runs = {run("short", 1, 0.8, 50), run("long", 1, 0.8, 200)};
   const Comparison c = compare(runs, "short", {});
