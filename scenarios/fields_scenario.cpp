@@ -81,7 +81,7 @@ void fields(const Keys& key, ScoreConfig& c) {
       "measured.");
   key("budget_views", c.budget_views, {1, 1e6},
       "Mean coverage is taken over this many views, however many a mission flew. A share that is "
-      "reached later counts as not reached.");
+      "reached later counts as not reached in tables and comparisons.");
   key("budget_m", c.budget_m, positive(1e6), "The same in metres from the first view on.");
   key("budget_s", c.budget_s, positive(1e7), "The same in seconds from the end of the profile on.");
 }

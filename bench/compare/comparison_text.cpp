@@ -257,8 +257,8 @@ std::vector<std::string> notes(const Comparison& comparison) {
   }
   all.push_back(fmt::format(
       "{}distance in straight lines between views, profile apart; flight time of the whole mission",
-      has_ceiling(comparison) ? "share of ceiling: over what the leaf filter lets through of all "
-                                "that legal viewpoints see; "
+      has_ceiling(comparison) ? "share of ceiling: coverage divided by the most that any planner "
+                                "could cover from allowed positions with exact sensors; "
                               : ""));
   add_effort_notes(all, comparison);
   for (std::size_t s = 0; s < comparison.budgets.size(); ++s) {

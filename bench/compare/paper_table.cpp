@@ -159,9 +159,9 @@ void add_ceiling(std::span<const MissionRow> missions, TextTable& table) {
   add("physical", "physical_ceiling_");
   add("leaf filter", "ceiling_");
   table.notes.emplace_back(
-      "ceiling: what legal viewpoints and the profile see, and what of it the cloud's leaf filter "
-      "can keep, of exact sensors: noise can lift a mission above it; of ceiling: coverage at 0.05 "
-      "m over the latter's");
+      "ceiling: the most that any planner could cover from allowed positions with exact sensors; "
+      "physical: what can be seen; leaf filter: what the cloud keeps of that; noise can lift a "
+      "mission above it; of ceiling: coverage at 0.05 m divided by the row leaf filter");
 }
 
 /// "max_iterations", or "max_iterations (4), collision (1)".
