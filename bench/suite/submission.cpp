@@ -239,6 +239,19 @@ std::optional<double> median_of(const std::vector<SubmittedMission>& missions,
   return median_effort(values);
 }
 
+/// The figures of the track follow from those of the missions, whoever checks only some of these.
+void need_own_figures(const Submission& submission, const Suite& suite) {
+  Writer given, said;
+  const TrackFigures own = track_figures(suite, submission.missions);
+  visit_track(own, given);
+  visit_track(submission.figures, said);
+  for (const auto& [key, value] : given.json.items()) {
+    if (said.json[key] == value) continue;
+    throw BadInput(fmt::format("{}: figures.{}: value {}: its missions give {}",
+                               submission.file.string(), key, said.json[key].dump(), value.dump()));
+  }
+}
+
 }  // namespace
 
 std::string member_name(const std::string& task, const std::string& file) {
@@ -306,7 +319,7 @@ void need_of_suite(const Submission& submission, const Suite& suite) {
         place, submission.track, submission.suite_version, submission.track_sha256.substr(0, 16),
         suite.version, track_sha256(suite, submission.track).substr(0, 16)));
   }
-  bool is_whole = submission.missions.size() == tasks.size();
+  bool is_whole = !tasks.empty() && submission.missions.size() == tasks.size();
   for (std::size_t i = 0; i < tasks.size() && is_whole; ++i) {
     is_whole = submission.missions[i].figures.task == tasks[i].structure;
   }
@@ -314,6 +327,7 @@ void need_of_suite(const Submission& submission, const Suite& suite) {
     throw BadInput(fmt::format("{}: its missions are not the {} tasks of track {} in their order",
                                place, tasks.size(), submission.track));
   }
+  need_own_figures(submission, suite);
 }
 
 }  // namespace gnbv

@@ -69,7 +69,8 @@ void write_submission(Submission submission, const std::filesystem::path& zip);
 /// does not name, that are missing or that have another hash.
 Submission read_submission(const std::filesystem::path& zip);
 
-/// Throws BadInput when it is of another suite or track, or lacks a task.
+/// Throws BadInput when it is of another suite or track, lacks a task, or says other figures of the
+/// track than its missions give.
 void need_of_suite(const Submission& submission, const Suite& suite);
 
 }  // namespace gnbv

@@ -119,7 +119,11 @@ def told_by(members):
 
 
 def test_a_submission_is_what_it_says(bench, tmp_path):
-    bench("verify n.zip --suite tiny.yaml --quiet --jobs 2", "verified: 2 missions flown again")
+    verify = "verify n.zip --suite tiny.yaml --quiet"
+    bench(f"{verify} --jobs 2", "verified: 2 missions flown again")
+    smoke = bench(f"{verify} --task smoke --task smoke -o kept", "verified: 1 mission flown again")
+    assert "not flown: 1 other" in smoke.out
+    bench(f"{verify} -o kept", "kept: holds missions already", code=2)  # what lies there was flown by whom?
     table = bench("table n.zip --suite tiny.yaml --format csv").out.splitlines()
     told = told_by(members_of(tmp_path / "n.zip"))
     assert str(told["figures"]["score"]) in table[1]
@@ -165,19 +169,29 @@ def test_an_edited_field_is_refused_and_resealed_it_is_found(bench, tmp_path):
         write(tmp_path / "e.zip", {**members, "submission.json": text})
         bench("verify e.zip --suite tiny.yaml", "e.zip", code=2)
         where[key] = before
-    # whoever makes the hashes fit is refused for what the suite says, or found by flying again
+    # whoever makes the hashes fit is refused for what the suite or the missions say, or found by
+    # flying again: what the track's figures are of changes places, so that these stay
     told, flown, numbers = told_by(members), told_by(members), []
     for (where, key), (other, _) in zip(places(told), places(flown), strict=True):
         if where is told and key in WORDS:
             continue
-        if where is told or key == "task":
+        if where in (told, told["figures"]) or key == "task":
             before, where[key] = where[key], edited(where[key])
             write(tmp_path / "e.zip", resealed(members, told))
-            bench("verify e.zip --suite tiny.yaml --quiet", code=1 if key == "settings" else 2)
+            is_set = key == "settings"
+            bench("verify e.zip --suite tiny.yaml --task smoke --quiet", code=1 if is_set else 2)
+            bench("table e.zip --suite tiny.yaml", code=0 if is_set else 2)
             where[key] = before
-        else:
+            continue
+        if key in ("share", "coverage", "plan_s"):
+            other[key] = next(m[key] for m in told["missions"] if m is not where)
+        elif key not in ("to_90", "to_95") or where is told["missions"][0]:
             other[key] = edited(other[key])
-            numbers.append(key)
+        else:
+            continue  # the median over both stays where one of them is not reached
+        numbers.append(key)
+    of = flown["figures"]
+    of["public_score"], of["held_out_score"] = of["held_out_score"], of["public_score"]
     write(tmp_path / "e.zip", resealed(members, flown))
     said = bench("verify e.zip --suite tiny.yaml --quiet --jobs 2", code=1).out
     for key in numbers:

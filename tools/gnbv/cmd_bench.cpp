@@ -1,9 +1,7 @@
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <memory>
 
 #include "bench/suite/standings.hpp"
@@ -51,14 +49,7 @@ std::vector<Submission> entries_of(const BenchSuiteOptions& options) {
 void run_entry(const BenchSuiteOptions& options) {
   const EntryFolder entry{suite_of(options), options.track,
                           entry_planner(options.planner, options.settings, options.name)};
-  std::vector<SuiteTask> tasks = entry.suite.tasks_of(entry.suite.track(options.track).name);
-  for (const std::string& name : options.only) {
-    if (std::ranges::count(tasks, name, &SuiteTask::structure) > 0) continue;
-    throw BadInput(fmt::format("--task {}: track {} has no such task", name, options.track));
-  }
-  std::erase_if(tasks, [&](const SuiteTask& task) {
-    return !options.only.empty() && std::ranges::count(options.only, task.structure) == 0;
-  });
+  const std::vector<SuiteTask> tasks = asked_tasks(entry.suite, options.track, options.only);
   {  // what a planner may not set is said before the folder is made
     TaskScenarios scenarios(entry.suite, fs::temp_directory_path());
     for (const SuiteTask& task : tasks) {
@@ -91,26 +82,6 @@ void submit_entry(const BenchSuiteOptions& options) {
   fmt::print("{}\n", options.out.string());
 }
 
-/// A folder of its own, gone in the end.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string path = (fs::temp_directory_path() / "gnbv-verify-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr) refuse_to_write(path, errno);
-    path_ = path;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 void verify_entry(const BenchSuiteOptions& options) {
   const Submission entry = read_submission(options.files.front());
   const ScratchFolder scratch;
@@ -124,11 +95,13 @@ void verify_entry(const BenchSuiteOptions& options) {
     throw CommandFailed(fmt::format("{}: {} found, flown again with this program", file,
                                     counted(differences.size(), "difference")));
   }
+  const std::size_t all = entry.missions.size();
+  const std::size_t flown = asked_tasks(suite_of(options), entry.track, options.only).size();
   fmt::print(
       "{}: {}, track {}: verified: {} flown again, every number but the planning time is "
-      "as it says\n",
-      file, printable(entry.name), entry.track,
-      counted(options.only.empty() ? entry.missions.size() : options.only.size(), "mission"));
+      "as it says{}\n",
+      file, printable(entry.name), entry.track, counted(flown, "mission"),
+      flown == all ? "" : fmt::format("; not flown: {}", counted(all - flown, "other")));
 }
 
 void print_standings(const BenchSuiteOptions& options) {

@@ -161,6 +161,19 @@ std::string TaskScenarios::mesh_sha256(const SuiteStructure& structure) {
   return hash = sha.hex();
 }
 
+std::vector<SuiteTask> asked_tasks(const Suite& suite, const std::string& track,
+                                   const std::vector<std::string>& only) {
+  std::vector<SuiteTask> tasks = suite.tasks_of(suite.track(track).name);
+  for (const std::string& name : only) {
+    if (std::ranges::count(tasks, name, &SuiteTask::structure) > 0) continue;
+    throw BadInput(fmt::format("--task {}: track {} has no such task", name, track));
+  }
+  std::erase_if(tasks, [&](const SuiteTask& task) {
+    return !only.empty() && std::ranges::count(only, task.structure) == 0;
+  });
+  return tasks;
+}
+
 std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask>& tasks,
                                  const EntryPlanner& planner, TaskScenarios& scenarios) {
   CellNamer namer;

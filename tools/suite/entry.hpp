@@ -50,6 +50,11 @@ class TaskScenarios {
   std::map<std::string, std::string> hashes_;
 };
 
+/// The tasks of a track, or of them those whose structures are asked for. Throws BadInput for one
+/// that it lacks.
+std::vector<SuiteTask> asked_tasks(const Suite& suite, const std::string& track,
+                                   const std::vector<std::string>& only);
+
 /// The missions of an entry, task by task. Throws BadInput when a mesh is another than was frozen.
 std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask>& tasks,
                                  const EntryPlanner& planner, TaskScenarios& scenarios);
@@ -68,6 +73,19 @@ void claim_entry_folder(const std::filesystem::path& folder, const EntryFolder& 
 
 /// Throws BadInput naming what is missing or damaged.
 EntryFolder read_entry_folder(const std::filesystem::path& folder);
+
+/// A folder of its own among the temporary ones, gone in the end.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 /// Mean planning time of a view, and the records of a mission that a submission holds: by file name
 /// of submission.hpp.

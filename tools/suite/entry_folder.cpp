@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
@@ -86,6 +88,22 @@ EntryFolder read_entry_folder(const fs::path& folder) {
   }
   entry.suite = read_suite(read_file(yaml), yaml.string());
   return entry;
+}
+
+ScratchFolder::ScratchFolder() {
+  std::error_code error;
+  fs::path within = fs::temp_directory_path(error);
+  if (error) {
+    throw BadInput(fmt::format("TMPDIR: the folder for temporary files: {}", error.message()));
+  }
+  std::string path = (within / "gnbv-bench-XXXXXX").string();
+  if (mkdtemp(path.data()) == nullptr) refuse_to_write(path, errno);
+  path_ = path;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
 }
 
 double planning_s(const fs::path& run) {

@@ -85,20 +85,6 @@ void compare_figures(const TaskFigures& now, const TaskFigures& said, const Flow
   compare("result_sha256", now.result_sha256, said.result_sha256);
 }
 
-void compare_tracks(const TrackFigures& now, const TrackFigures& said, const FlownAgain& compare) {
-  compare("score", now.score.mean, said.score.mean);
-  compare("score_low", now.score.low, said.score.low);
-  compare("score_high", now.score.high, said.score.high);
-  compare("public_score", now.public_score, said.public_score);
-  compare("held_out_score", now.held_out_score, said.held_out_score);
-  compare("coverage", now.coverage.mean, said.coverage.mean);
-  compare("coverage_low", now.coverage.low, said.coverage.low);
-  compare("coverage_high", now.coverage.high, said.coverage.high);
-  compare("to_90", now.to_90, said.to_90);
-  compare("to_95", now.to_95, said.to_95);
-  compare("plan_s, a mean of what is stated,", now.plan_s, said.plan_s);
-}
-
 /// Views and files as they were and as they are.
 void compare_records(const fs::path& run, const Submission& submission, const std::string& task,
                      const FlownAgain& compare, const fs::path& records) {
@@ -119,24 +105,15 @@ void compare_records(const fs::path& run, const Submission& submission, const st
   }
 }
 
-std::vector<SuiteTask> asked_tasks(const std::vector<SuiteTask>& all,
-                                   const std::vector<std::string>& only) {
-  std::vector<SuiteTask> tasks;
-  for (const std::string& name : only) {
-    const auto task = std::ranges::find(all, name, &SuiteTask::structure);
-    if (task == all.end()) throw BadInput(fmt::format("--task {}: there is no such task", name));
-    tasks.push_back(*task);
-  }
-  return only.empty() ? all : tasks;
-}
-
 std::vector<std::string> verify(const Submission& submission, const Suite& suite,
                                 const fs::path& folder, const SuiteFlights& flights,
                                 std::vector<fs::path>* runs) {
   need_of_suite(submission, suite);
   const SuiteTrack& track = suite.track(submission.track);
-  const std::vector<SuiteTask> all = suite.tasks_of(track.name);
-  const std::vector<SuiteTask> tasks = asked_tasks(all, flights.only);
+  const std::vector<SuiteTask> tasks = asked_tasks(suite, track.name, flights.only);
+  if (fs::exists(folder / kCellsFolder)) {  // they would count as flown
+    throw BadInput(fmt::format("{}: holds missions already: choose another -o", folder.string()));
+  }
   TaskScenarios scenarios(suite, folder / "meshes");
   std::vector<Cell> cells;
   for (const SuiteTask& task : tasks) {
@@ -149,7 +126,6 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
       cells,
       {.folder = folder, .jobs = flights.jobs, .threads = flights.threads, .quiet = flights.quiet});
   std::vector<std::string> differences;
-  std::vector<SubmittedMission> again;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::string& task = tasks[i].structure;
     const SubmittedMission& said = *std::ranges::find(
@@ -168,11 +144,6 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
     compare_figures(now.figures, said.figures, compare);
     compare("trajectory_sha256", now.trajectory_sha256, said.trajectory_sha256);
     compare_records(run, submission, task, compare, folder / "records" / task);
-    again.push_back(std::move(now));
-  }
-  if (again.size() == all.size()) {
-    compare_tracks(track_figures(suite, again), submission.figures,
-                   {"track " + track.name, differences});
   }
   return differences;
 }
