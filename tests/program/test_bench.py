@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -286,6 +287,18 @@ HOSTILE = {
         with_json(lambda t: t["settings"].append("cameras.0.range_max_m=50")),
         "may not set cameras.0.range_max_m",
     ),
+    "file": (
+        with_json(lambda t: t["settings"].append("cameras.0.calibration=pipe")),
+        "may not set cameras.0.calibration",
+    ),
+    "profile": (
+        with_json(lambda t: t["settings"].append("planner.profiling={method: saved, file: pipe}")),
+        "may not set planner.profiling",
+    ),
+    "oracle": (
+        with_json(lambda t: t["settings"].append("planner.utility.name=oracle_metres")),
+        "oracle_metres, which knows the mesh",
+    ),
     "path as a task": (with_json(lambda t: t["missions"][0].update(task="../../x")), ""),
     "cut": (with_bytes(lambda b: b[: len(b) // 2]), "is no zip archive"),
     "flipped": (with_bytes(lambda b: b[:300] + bytes([b[300] ^ 0xFF]) + b[301:]), ""),
@@ -297,6 +310,7 @@ HOSTILE = {
 def test_a_hostile_zip_is_refused_by_name(bench, tmp_path, attack):
     change, says = HOSTILE[attack]
     members = members_of(tmp_path / "n.zip")
+    os.mkfifo(tmp_path / "pipe")
     change(tmp_path / "h.zip", members)
     before = sorted(tmp_path.iterdir())
     bench("verify h.zip --suite tiny.yaml --quiet -o out", "h.zip", says, code=2)
@@ -427,10 +441,19 @@ def test_what_a_planner_may_not_set_is_named(bench, tmp_path):
     bench(f"{run} tour --set cameras.0.range_max_m=9", "may not set cameras.0.range_max_m", code=2)
     bench(f"{run} tuor", "did you mean 'tour'", code=2)
     bench(f"{run} tour --task hall", "no such task", code=2)
+    track = "run --suite tiny.yaml --track takeoff -o x --planner tour --set"
+    bench(f"{track} 'planner.profiling={{method: saved, file: p}}'", "profiling.file", code=2)
     bench("run --suite tiny.yaml --track tniy -o x --planner tour", "did you mean 'tiny'", code=2)
     (tmp_path / "u.py").write_text('def u(stats):\n    return stats["path_m"]\n')
     bench(f"{run} u.py", "is a utility", code=2)
     assert not (tmp_path / "x").exists()
+
+
+def test_a_task_of_a_random_structure_is_checked_before_its_folder_is_claimed(bench, tmp_path):
+    run = "run --track small --task hall-1 --planner lawnmower -o h --quiet"
+    bench(f"{run} --set seed=5", "may not set seed", code=2)
+    assert not (tmp_path / "h").exists()
+    bench(run)
 
 
 def test_freezing_finds_the_same_numbers_again(bench, tmp_path):

@@ -50,14 +50,10 @@ void run_entry(const BenchSuiteOptions& options) {
   const EntryFolder entry{suite_of(options), options.track,
                           entry_planner(options.planner, options.settings, options.name)};
   const std::vector<SuiteTask> tasks = asked_tasks(entry.suite, options.track, options.only);
-  {  // what a planner may not set is said before the folder is made
-    TaskScenarios scenarios(entry.suite, fs::temp_directory_path());
-    for (const SuiteTask& task : tasks) {
-      if (entry.suite.structure_of(task).random.empty()) {
-        scenarios.of(task, entry.planner.settings);
-        break;
-      }
-    }
+  if (!tasks.empty()) {  // what is refused, or starts the program again, does so before the claim
+    const ScratchFolder scratch;
+    TaskScenarios scenarios(entry.suite, scratch.path());
+    cells_of_entry(entry.suite, {tasks.front()}, entry.planner, scenarios);
   }
   claim_entry_folder(options.out, entry, options.resume);
   fly_entry(options.out, entry, tasks, options.flights);

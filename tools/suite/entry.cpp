@@ -35,23 +35,23 @@ std::vector<std::string> for_all_cameras(const std::string& setting, std::size_t
   return all;
 }
 
+bool is_free(const std::string& key, const SuiteTrack& track) {
+  const auto is_below = [&](std::string_view above) { return is_at_or_below(key, above); };
+  return std::ranges::any_of(kFreeKeys, is_below) || std::ranges::any_of(track.free, is_below);
+}
+
 /// The keys that differ and that a planner may not set.
 std::vector<std::string> keys_beyond(const Scenario& task, const Scenario& entry,
                                      const SuiteTrack& track) {
-  std::vector<std::string_view> free = kFreeKeys;
-  free.insert(free.end(), track.free.begin(), track.free.end());
-  const auto is_free = [&](const std::string& key) {
-    return std::ranges::any_of(free, [&](auto above) { return is_at_or_below(key, above); });
-  };
   std::map<std::string, std::string> values;
   for (auto& [key, value] : scenario_values(task)) values[key] = std::move(value);
   std::vector<std::string> keys;
   for (const auto& [key, value] : scenario_values(entry)) {
-    if (!is_free(key) && values[key] != value) keys.push_back(key);
+    if (!is_free(key, track) && values[key] != value) keys.push_back(key);
     values.erase(key);
   }
   for (const auto& [key, value] : values) {
-    if (!is_free(key)) keys.push_back(key);
+    if (!is_free(key, track)) keys.push_back(key);
   }
   return keys;
 }
@@ -142,11 +142,23 @@ Scenario TaskScenarios::resolved(const SuiteTask& task, const std::vector<Overri
 Scenario TaskScenarios::of(const SuiteTask& task) { return resolved(task, {}); }
 
 Scenario TaskScenarios::of(const SuiteTask& task, const std::vector<Override>& planner) {
+  const SuiteTrack& track = suite_.track(task.track);
+  const auto need_none = [&](const std::vector<std::string>& keys) {
+    if (keys.empty()) return;
+    throw BadInput(fmt::format("{}, {}: a planner may not set {} in this track", task.track,
+                               task.structure, fmt::join(keys, ", ")));
+  };
+  std::vector<std::string> beyond;
+  for (const Override& set : planner) {  // first: such a one may name a file that would be read
+    const std::size_t equals = set.text.find('=');
+    const std::string key = set.text.substr(0, equals);
+    if (equals != key.npos && !is_free(key, track)) beyond.push_back(key);
+  }
+  need_none(beyond);
   Scenario scenario = resolved(task, planner);
-  const auto keys = keys_beyond(resolved(task, {}), scenario, suite_.track(task.track));
-  if (keys.empty()) return scenario;
-  throw BadInput(fmt::format("{}, {}: a planner may not set {} in this track", task.track,
-                             task.structure, fmt::join(keys, ", ")));
+  need_none(keys_beyond(resolved(task, {}), scenario, track));  // what a preset brings with it
+  if (!scenario.planner.profiling.file.empty()) need_none({"planner.profiling.file"});
+  return scenario;
 }
 
 std::string TaskScenarios::mesh_sha256(const SuiteStructure& structure) {
@@ -188,6 +200,12 @@ std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask
           structure.name, mesh, structure.sha256));
     }
     Scenario scenario = scenarios.of(task, planner.settings);
+    const std::string& utility = scenario.planner.utility.name;
+    if (traits_of(scenario.planner).knows_structure && !planner.name.starts_with(utility)) {
+      throw BadInput(fmt::format(
+          "name: value '{}': of {}, which knows the mesh: the name has to begin with that",
+          planner.name, utility));
+    }
     const std::string id = namer.id_of(scenario);
     cells.push_back({task.structure, planner.name, scenario.seed, id, std::move(scenario)});
   }

@@ -31,16 +31,6 @@ EntryPlanner planner_of(const Submission& submission, const fs::path& records) {
   return planner;
 }
 
-/// Runs no function of the user's, and reads no file that a setting names.
-void need_no_code(const Submission& submission, const Scenario& scenario) {
-  if (user_function(scenario.planner.utility) == nullptr &&
-      scenario.planner.profiling.file.empty()) {
-    return;
-  }
-  throw BadInput(fmt::format("{}: settings: name a function or a file of the user's own",
-                             submission.file.string()));
-}
-
 /// The mission of a task as it is flown again; its records lie beside it. Of a planner of the
 /// program's nothing of the record is taken up: it has to come to the same views by itself.
 Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& task,
@@ -52,7 +42,10 @@ Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& 
     if (found != submission.records.end()) write_file_atomically(records / file, found->second);
   }
   Cell cell = cells_of_entry(suite, {task}, planner_of(submission, records), scenarios).front();
-  need_no_code(submission, cell.resolved);
+  if (user_function(cell.resolved.planner.utility) != nullptr) {
+    throw BadInput(
+        fmt::format("{}: settings: name a function of the user's own", submission.file.string()));
+  }
   return cell;
 }
 
@@ -132,9 +125,9 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
         submission.missions, task, [](const auto& mission) { return mission.figures.task; });
     const FlownAgain compare{task, differences};
     if (outcomes[i].status == CellStatus::missing) throw CommandFailed("interrupted");
-    if (outcomes[i].status != CellStatus::done) {
-      differences.push_back(fmt::format("{}: {}", task, outcomes[i].failure));
-      continue;
+    if (outcomes[i].status != CellStatus::done) {  // a full disk, say: no word on the submission
+      throw CommandFailed(fmt::format("{}: {}: could not be flown: {}", submission.file.string(),
+                                      task, outcomes[i].failure));
     }
     const fs::path& run = outcomes[i].run;
     if (runs != nullptr) runs->push_back(run);
