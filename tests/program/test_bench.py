@@ -12,7 +12,7 @@ import sys
 import zipfile
 
 import pytest
-from program import REPOSITORY, Gnbv
+from program import REPOSITORY, Gnbv, end_of
 
 TINY = REPOSITORY / "examples/bench/tiny.yaml"
 WORDS = ("description", "licence", "machine", "name", "program", "program_sha256")  # of no flight
@@ -425,6 +425,34 @@ def test_the_bridge_to_ros_flies_what_comes_by_its_topics(gnbv, tmp_path):
     rows = (tmp_path / "r/views.csv").read_text().splitlines()
     assert [row.split(",")[6] for row in rows[1:]] == ["flown"] * 3
     assert set(pathlib.Path("/dev/shm").glob("gnbv-*")) <= shared
+
+
+def test_what_is_set_beside_a_planner_of_others_is_flown_again(bench, tmp_path):
+    (tmp_path / "planner.py").write_text(PLANNER)
+    run = "run --suite tiny.yaml --track tiny --planner 'python3 planner.py' -o f --quiet"
+    bench(f"{run} --set planner.termination.max_iterations=2")
+    bench("submit f -o f.zip")
+    bench("verify f.zip --suite tiny.yaml --quiet", "verified")
+    members = members_of(tmp_path / "f.zip")
+    told = told_by(members)
+    assert told["settings"] == ["planner.termination.max_iterations=2"]
+    told["settings"] = []
+    write(tmp_path / "e.zip", resealed(members, told))
+    bench("verify e.zip --suite tiny.yaml --quiet", "smoke: ", code=1)
+
+
+def test_a_planner_that_gives_no_view_is_verified(bench, tmp_path):
+    (tmp_path / "none.py").write_text("import sys\nsys.stdin.readline()\n")
+    bench("run --suite tiny.yaml --track tiny --planner 'python3 none.py' -o f --quiet")
+    bench("submit f -o f.zip")
+    bench("verify f.zip --suite tiny.yaml --quiet", "verified: 2 missions")
+
+
+def test_many_processes_claim_a_folder_at_once(gnbv, tmp_path):
+    shutil.copy(TINY, tmp_path)
+    run = "bench run --suite tiny.yaml --track tiny --planner random -o r --quiet --resume"
+    for child in [gnbv.start(*run.split(), "--threads", "1") for _ in range(8)]:
+        end_of(child).check({0})
 
 
 def test_a_planner_that_fails_has_no_mission(bench, gnbv, tmp_path):

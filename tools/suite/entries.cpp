@@ -86,9 +86,7 @@ Submission submission_of(const fs::path& folder, const EntryWords& words) {
                         .machine = this_machine(),
                         .program = GNBV_VERSION,
                         .program_sha256 = flying_source_id()};
-  if (submission.kind == EntryKind::planner) {
-    for (const Override& set : entry.planner.settings) submission.settings.push_back(set.text);
-  }
+  for (const Override& set : entry.planner.settings) submission.settings.push_back(set.text);
   std::vector<std::string> missing, loose;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const CellOutcome known = look_up(folder, cells[i]);

@@ -69,7 +69,7 @@ EntryPlanner entry_planner(const std::string& text, const std::vector<std::strin
     const std::string program = text.substr(0, text.find(' '));
     planner = {.name = fs::path(program).filename().string(),
                .kind = EntryKind::views,
-               .settings = {route_setting()},
+               .asks = {route_setting()},
                .run_arguments = {"--views", "|" + text}};
   } else if (is_known && text != kUserUtilityName) {
     planner = {.name = text, .settings = {{"planner.utility.name=" + text}}};
@@ -86,7 +86,7 @@ EntryPlanner entry_planner(const std::string& text, const std::vector<std::strin
     }
     planner = {.name = method.name,
                .kind = EntryKind::views,
-               .settings = method.overrides,
+               .asks = method.overrides,
                .run_arguments = {"--round-views"}};
   } else {
     throw BadInput(fmt::format(
@@ -199,7 +199,14 @@ std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask
           "structure than the suite was frozen with",
           structure.name, mesh, structure.sha256));
     }
-    Scenario scenario = scenarios.of(task, planner.settings);
+    std::vector<Override> all = planner.settings;
+    all.insert(all.end(), planner.asks.begin(), planner.asks.end());
+    Scenario scenario = scenarios.of(task, all);
+    if (planner.kind == EntryKind::planner && user_function(scenario.planner.utility) != nullptr) {
+      throw BadInput(
+          "settings: name a function of the user's own, which nobody could fly again without "
+          "running it");
+    }
     const std::string& utility = scenario.planner.utility.name;
     if (traits_of(scenario.planner).knows_structure && !planner.name.starts_with(utility)) {
       throw BadInput(fmt::format(

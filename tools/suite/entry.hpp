@@ -17,7 +17,8 @@ namespace gnbv {
 struct EntryPlanner {
   std::string name;
   EntryKind kind = EntryKind::planner;
-  std::vector<Override> settings = {};  // of kind `views` those that make the mission ask it
+  std::vector<Override> settings = {};          // as a submission states them
+  std::vector<Override> asks = {};              // of kind `views`, after these: the mission asks it
   std::vector<std::string> run_arguments = {};  // of `gnbv run`
 };
 
@@ -55,7 +56,8 @@ class TaskScenarios {
 std::vector<SuiteTask> asked_tasks(const Suite& suite, const std::string& track,
                                    const std::vector<std::string>& only);
 
-/// The missions of an entry, task by task. Throws BadInput when a mesh is another than was frozen.
+/// The missions of an entry, task by task. Throws BadInput when a mesh is another than was frozen,
+/// and for settings that name code, or an oracle by whose name the entry's does not begin.
 std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask>& tasks,
                                  const EntryPlanner& planner, TaskScenarios& scenarios);
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -21,13 +23,24 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kEntryFile = "bench.json";
 constexpr const char* kSuiteFile = "suite.yaml";
 
+Json texts_of(const std::vector<Override>& settings) {
+  Json texts = Json::array();
+  for (const Override& set : settings) texts.push_back(set.text);
+  return texts;
+}
+
+std::vector<Override> settings_of(const Json& texts) {
+  std::vector<Override> settings;
+  for (const Json& text : texts) settings.push_back({text.get<std::string>()});
+  return settings;
+}
+
 std::string text_of(const EntryFolder& entry) {
-  Json settings = Json::array();
-  for (const Override& set : entry.planner.settings) settings.push_back(set.text);
   return Json{{"track", entry.track},
               {"name", entry.planner.name},
               {"kind", kEntryKindNames.at(static_cast<std::size_t>(entry.planner.kind))},
-              {"settings", settings},
+              {"settings", texts_of(entry.planner.settings)},
+              {"asks", texts_of(entry.planner.asks)},
               {"run_arguments", entry.planner.run_arguments}}
              .dump(1, ' ', false, Json::error_handler_t::replace) +
          "\n";
@@ -49,6 +62,16 @@ std::string thinned(const std::string& trajectory) {
 
 void claim_entry_folder(const fs::path& folder, const EntryFolder& entry, bool resume) {
   const fs::path file = folder / kEntryFile;
+  const fs::path lock_file = folder / kLockFile;  // stays: by it a claim at work is known
+  make_folder(folder);
+  if (!fs::is_empty(folder) && !fs::exists(lock_file) && !fs::exists(file)) {
+    throw BadInput(
+        fmt::format("{}: is not empty and holds no entry: choose another -o", folder.string()));
+  }
+  std::optional<FileLock> lock;
+  while (!(lock = FileLock::take(lock_file))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   if (fs::exists(file)) {
     const bool is_same = read_file(file) == text_of(entry) &&
                          read_file(folder / kSuiteFile) == suite_yaml(entry.suite);
@@ -60,11 +83,6 @@ void claim_entry_folder(const fs::path& folder, const EntryFolder& entry, bool r
     throw BadInput(
         fmt::format("{}: holds this entry already: --resume goes on with it", folder.string()));
   }
-  if (fs::exists(folder) && !fs::is_empty(folder)) {
-    throw BadInput(
-        fmt::format("{}: is not empty and holds no entry: choose another -o", folder.string()));
-  }
-  make_folder(folder);
   write_file_atomically(folder / kSuiteFile, suite_yaml(entry.suite));
   write_file_atomically(file, text_of(entry));
 }
@@ -79,9 +97,8 @@ EntryFolder read_entry_folder(const fs::path& folder) {
     json.at("name").get_to(entry.planner.name);
     entry.planner.kind =
         json.at("kind") == kEntryKindNames[1] ? EntryKind::views : EntryKind::planner;
-    for (const Json& set : json.at("settings")) {
-      entry.planner.settings.push_back({set.get<std::string>()});
-    }
+    entry.planner.settings = settings_of(json.at("settings"));
+    entry.planner.asks = settings_of(json.at("asks"));
     json.at("run_arguments").get_to(entry.planner.run_arguments);
   } catch (const Json::exception&) {
     throw BadInput(fmt::format("{}: is damaged: no folder of `gnbv bench run`", file.string()));
