@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/statistics.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 
@@ -21,13 +20,6 @@ std::string unit_of(const SuiteTrack& track) { return track.effort == Effort::me
 TableCell percent(double share) { return {fmt::format("{:.1f}", 100.0 * share), {share}}; }
 TableCell amount(const std::optional<double>& value, int decimals) {
   return value ? TableCell{grouped(*value, decimals), {value}} : TableCell{};
-}
-
-std::string verdict_of(const Standing& standing, bool is_first) {
-  if (is_first) return "-";
-  if (!standing.is_tested) return "too few structures";
-  const std::string p = standing.p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", standing.p);
-  return fmt::format("{} ({})", standing.p < kSignificant ? "behind" : "not told apart", p);
 }
 
 bool has_set(const Suite& suite, const SuiteTrack& track, const char* set) {
@@ -92,6 +84,17 @@ TextTable table_of(const Suite& suite, const SuiteTrack& track,
 
 }  // namespace
 
+std::string verdict_of(const Standing& standing, bool is_first) {
+  if (is_first) return "-";
+  if (standing.test.n == 0) return "equal";
+  if (least_wilcoxon_p(standing.test.n) >= kSignificant) return "too few structures";
+  const char* const verdict = standing.p >= kSignificant ? "not told apart"
+                              : standing.test.is_above() ? "behind"
+                                                         : "ahead by ranks";
+  const std::string p = standing.p < 0.001 ? "p < 0.001" : fmt::format("p = {:.3f}", standing.p);
+  return fmt::format("{} ({})", verdict, p);
+}
+
 std::vector<Standing> standings(const Suite& suite, const std::vector<Submission>& entries,
                                 const std::string& track) {
   std::vector<Standing> sorted;
@@ -116,9 +119,8 @@ std::vector<Standing> standings(const Suite& suite, const std::vector<Submission
       differences.push_back(sorted[0].entry->missions[k].figures.share -
                             sorted[i].entry->missions[k].figures.share);
     }
-    const SignedRankTest test = wilcoxon_signed_rank(differences);
-    sorted[i].is_tested = least_wilcoxon_p(test.n) < kSignificant;
-    p.push_back(test.p);
+    sorted[i].test = wilcoxon_signed_rank(differences);
+    p.push_back(sorted[i].test.p);
   }
   p = holm_adjusted(p);
   for (std::size_t i = 1; i < sorted.size(); ++i) sorted[i].p = p[i - 1];

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/compare/statistics.hpp"
 #include "bench/compare/text_table.hpp"
 #include "bench/suite/submission.hpp"
 
@@ -14,9 +15,12 @@ namespace gnbv {
 /// (Wilcoxon's signed ranks, exact, two-sided), adjusted by Holm for the entries of the table.
 struct Standing {
   const Submission* entry = nullptr;  // stays with the caller
-  bool is_tested = false;             // there are enough structures that differ
+  SignedRankTest test = {};           // of how much more the first one has, structure by structure
   double p = 1.0;                     // adjusted
 };
+
+/// What a table says of an entry against the first. Scores are means, and ranks may say otherwise.
+std::string verdict_of(const Standing& standing, bool is_first);
 
 /// By falling score, then by name. Throws BadInput for two entries of one name, and for one that is
 /// not of the suite (need_of_suite).

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/suite/score.hpp"
+#include "bench/suite/standings.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {
@@ -69,6 +70,22 @@ TEST(Bootstrap, OfZerosAndOnesIsTheBinomial) {
   const std::vector<double> same(5, 0.25);
   EXPECT_EQ(bootstrap_mean(same).low, 0.25);
   EXPECT_EQ(bootstrap_mean(same).high, 0.25);
+}
+
+TEST(Verdict, IsThatOfTheRanksAndNotOfTheMeans) {
+  // seven structures in which the first one has less, and one in which it has so much more that its
+  // mean is the higher one
+  const std::vector<double> against = {-1, -2, -3, -4, -5, -6, -7, 90};
+  std::vector<double> with = against;
+  for (double& difference : with) difference = -difference;
+  const auto verdict = [](const std::vector<double>& differences, double p) {
+    return verdict_of({.test = wilcoxon_signed_rank(differences), .p = p}, false);
+  };
+  EXPECT_EQ(verdict(against, 0.04), "ahead by ranks (p = 0.040)");
+  EXPECT_EQ(verdict(with, 0.04), "behind (p = 0.040)");
+  EXPECT_EQ(verdict(against, 0.06), "not told apart (p = 0.060)");
+  EXPECT_EQ(verdict(std::vector<double>(8, 0.0), 1.0), "equal");
+  EXPECT_EQ(verdict({0, 0, 0, 1}, 1.0), "too few structures");
 }
 
 TEST(SuiteFile, ReadsWhatItWritesAndItsTracksAreApart) {
