@@ -12,6 +12,7 @@
 #include "bench/suite/zip_file.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
@@ -97,7 +98,7 @@ struct Reader {
   }
   void operator()(const char* key, std::string& value) const {
     value = at(key, &Json::is_string, "a text").get<std::string>();
-    if (value.size() > kText_bytes) throw BadInput(fmt::format("{}: {}: is too long", place, key));
+    need_text(place, key, value);
   }
   void operator()(const char* key, double& value) const {
     value = at(key, &Json::is_number, "a number").get<double>();
@@ -128,8 +129,19 @@ struct Reader {
       if (!text.is_string()) {
         throw BadInput(fmt::format("{}: {}: expects a list of texts", place, key));
       }
-      texts.push_back(text.get<std::string>());
+      need_text(place, key, texts.emplace_back(text.get<std::string>()));
     }
+  }
+};
+
+/// Of what people say, that it can be read again.
+struct TextCheck {
+  std::string place;
+
+  void operator()(const char*, const auto&) const {}
+  void operator()(const char* key, const std::string& text) const { need_text(place, key, text); }
+  void operator()(const char* key, const std::vector<std::string>& texts) const {
+    for (const std::string& text : texts) need_text(place, key, text);
   }
 };
 
@@ -168,6 +180,7 @@ SubmittedMission mission_of(const Json& json, const std::string& place) {
   read("trajectory_sha256", mission.trajectory_sha256);
   for (const auto& [name, hash] : read.at("files", &Json::is_object, "an object").items()) {
     if (!hash.is_string()) throw BadInput(fmt::format("{}: files: expects hashes", place));
+    need_text(place, "files", name);
     mission.files[name] = hash.get<std::string>();
   }
   return mission;
@@ -282,7 +295,21 @@ TrackFigures track_figures(const Suite& suite, const std::vector<SubmittedMissio
           .plan_s = mean_of(plans)};
 }
 
+void need_text(const std::string& place, const std::string& key, const std::string& text) {
+  std::string what;
+  if (text.size() > kText_bytes) {
+    what = fmt::format("is too long: {} bytes, and at most {}", text.size(), kText_bytes);
+  } else if (printable(text) != text || (key != "description" && text.find('\n') != text.npos)) {
+    what = "expects a line of UTF-8 text";
+  } else if (key.ends_with("sha256") &&
+             (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != text.npos)) {
+    what = "expects 64 hexadecimal digits";
+  }
+  if (!what.empty()) throw BadInput(fmt::format("{}: {}: {}", place, key, what));
+}
+
 void write_submission(Submission submission, const fs::path& zip) {
+  visit_words(submission, TextCheck{zip.string()});
   for (SubmittedMission& mission : submission.missions) {
     for (auto& [file, hash] : mission.files) {
       hash = hash_of(submission.records.at(member_name(mission.figures.task, file)));
@@ -310,7 +337,11 @@ Submission read_submission(const fs::path& zip) {
 
 void need_of_suite(const Submission& submission, const Suite& suite) {
   const std::string place = submission.file.string();
-  const std::vector<SuiteTask> tasks = suite.tasks_of(suite.track(submission.track).name);
+  const std::vector<SuiteTask> tasks = suite.tasks_of(submission.track);
+  if (tasks.empty()) {
+    throw BadInput(fmt::format("{}: track '{}': is none of the suite; --suite FILE reads another",
+                               place, submission.track));
+  }
   if (submission.suite_version != suite.version ||
       submission.track_sha256 != track_sha256(suite, submission.track)) {
     throw BadInput(fmt::format(
@@ -319,7 +350,7 @@ void need_of_suite(const Submission& submission, const Suite& suite) {
         place, submission.track, submission.suite_version, submission.track_sha256.substr(0, 16),
         suite.version, track_sha256(suite, submission.track).substr(0, 16)));
   }
-  bool is_whole = !tasks.empty() && submission.missions.size() == tasks.size();
+  bool is_whole = submission.missions.size() == tasks.size();
   for (std::size_t i = 0; i < tasks.size() && is_whole; ++i) {
     is_whole = submission.missions[i].figures.task == tasks[i].structure;
   }

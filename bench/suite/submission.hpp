@@ -61,7 +61,11 @@ std::string member_name(const std::string& task, const std::string& file);
 /// Requires missions of the tasks in their order.
 TrackFigures track_figures(const Suite& suite, const std::vector<SubmittedMission>& missions);
 
-/// Fills in the hashes of the records and writes the zip.
+/// Throws BadInput naming place and key unless the text is UTF-8 of at most 4000 bytes that
+/// controls no terminal; a description may have several lines, a hash is of 64 hexadecimal digits.
+void need_text(const std::string& place, const std::string& key, const std::string& text);
+
+/// Fills in the hashes of the records and writes the zip. Throws as need_text() before it does.
 void write_submission(Submission submission, const std::filesystem::path& zip);
 
 /// Throws BadInput as read_zip(), and naming file and key or member for a submission.json that is

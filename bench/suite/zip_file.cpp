@@ -82,6 +82,10 @@ std::string content_of(zip_t* archive, zip_uint64_t index, const zip_stat_t& abo
   if (static_cast<zip_uint64_t>(read) != about.size) {
     refuse(file, about.name, "is of another size than it says");
   }
+  char beyond = '\0';  // its checksum is compared where its end is read
+  if (zip_fread(member.get(), &beyond, 1) != 0) {
+    refuse(file, about.name, fmt::format("is damaged: {}", zip_file_strerror(member.get())));
+  }
   content.pop_back();
   return content;
 }

@@ -1,6 +1,7 @@
 """`gnbv bench`: entries flown, submitted, verified by flying them again, edited and refused."""
 
 import hashlib
+import io
 import json
 import os
 import pathlib
@@ -244,6 +245,21 @@ def with_bytes(change):
     return hostile
 
 
+def negative_time(path, members):
+    member = "missions/smoke/iterations.csv"
+    head, *rows = (row.split(",") for row in members[member].decode().splitlines())
+    rows[0][head.index("wall_plan_s")] = "-1"
+    members[member] = "".join(",".join(row) + "\n" for row in [head, *rows]).encode()
+    write(path, resealed(members, told_by(members)))
+
+
+def other_checksum(zipped):
+    """Of the first member, at both places."""
+    with zipfile.ZipFile(io.BytesIO(zipped)) as file:
+        crc = file.infolist()[0].CRC
+    return zipped.replace(crc.to_bytes(4, "little"), (crc ^ 1).to_bytes(4, "little"))
+
+
 HOSTILE = {
     "absolute": (with_member("/etc/cron.d/x"), "is an absolute path"),
     "parent": (with_member("missions/../../x"), "leads out of its folder"),
@@ -287,6 +303,10 @@ HOSTILE = {
         with_json(lambda t: t["settings"].append("cameras.0.range_max_m=50")),
         "may not set cameras.0.range_max_m",
     ),
+    "figures": (
+        with_json(lambda t: t["figures"].update(score=1.5)),
+        "figures.score: value 1.5: its missions give 0.8",
+    ),
     "file": (
         with_json(lambda t: t["settings"].append("cameras.0.calibration=pipe")),
         "may not set cameras.0.calibration",
@@ -299,6 +319,17 @@ HOSTILE = {
         with_json(lambda t: t["settings"].append("planner.utility.name=oracle_metres")),
         "oracle_metres, which knows the mesh",
     ),
+    "terminal": (
+        with_json(lambda t: t["missions"][0].update(termination="\x1b[2J")),
+        "missions.0: termination: expects a line of UTF-8 text",
+    ),
+    "hash": (
+        with_json(lambda t: t["missions"][0].update(result_sha256="/../../x")),
+        "result_sha256: expects 64 hexadecimal digits",
+    ),
+    "time": (negative_time, "plan_s: value -1: expects a number, 0 or more"),
+    "track": (with_json(lambda t: t.update(track="ours")), "h.zip: track 'ours': is none"),
+    "checksum": (with_bytes(other_checksum), "is damaged"),
     "path as a task": (with_json(lambda t: t["missions"][0].update(task="../../x")), ""),
     "cut": (with_bytes(lambda b: b[: len(b) // 2]), "is no zip archive"),
     "flipped": (with_bytes(lambda b: b[:300] + bytes([b[300] ^ 0xFF]) + b[301:]), ""),
@@ -448,6 +479,17 @@ def test_a_planner_that_gives_no_view_is_verified(bench, tmp_path):
     bench("verify f.zip --suite tiny.yaml --quiet", "verified: 2 missions")
 
 
+def test_texts_are_looked_at_before_anything_is_flown_or_written(bench, tmp_path):
+    for words in ("--description", "--licence"):
+        for text in ("x" * 5000, b"\xe9".decode("utf-8", "surrogateescape")):
+            bench(f"submit n -o n.zip {words} '{text}'", f"n.zip: {words[2:]}: ", code=2)
+    bench("table n.zip --suite tiny.yaml")  # the good one is still there
+    run = "run --suite tiny.yaml --track tiny -o x --planner oracle_views"
+    bench(f"{run} --name {'x' * 5000}", "name: is too long", code=2)
+    bench(f"{run} --name ours", "which knows the mesh", code=2)
+    assert not (tmp_path / "x").exists()
+
+
 def test_many_processes_claim_a_folder_at_once(gnbv, tmp_path):
     shutil.copy(TINY, tmp_path)
     run = "bench run --suite tiny.yaml --track tiny --planner random -o r --quiet --resume"
@@ -500,11 +542,16 @@ def test_freezing_finds_the_same_numbers_again(bench, tmp_path):
 
 
 def test_the_page_holds_the_standings_and_every_mission(bench, tmp_path):
-    end = bench("page n.zip --suite tiny.yaml -o site --quiet --jobs 2")
+    told = told_by(members := members_of(tmp_path / "n.zip"))
+    for i, name in enumerate(["木" * 90 + " A", "木" * 90 + "+A"]):  # of which neither is a folder's
+        write(tmp_path / f"{i}.zip", resealed(members, {**told, "name": name}))
+    end = bench("page n.zip 0.zip 1.zip --suite tiny.yaml -o site --quiet --jobs 2")
     assert end.out == "site/index.html\n"
     html = (tmp_path / "site/index.html").read_text()
     data = json.loads(re.search(r'id="standings">(.*?)</script>', html, re.S)[1])
-    entry = data["tracks"][0]["entries"][0]
+    entry = next(e for e in data["tracks"][0]["entries"] if e["name"] == "nearest_frontier")
+    links = [m["link"] for e in data["tracks"][0]["entries"] for m in e["missions"] if m["link"]]
+    assert len(set(links)) == len(links)
     assert (entry["name"], entry["description"]) == ("nearest_frontier", "a baseline")
     for mission in entry["missions"]:
         if mission["link"]:

@@ -56,15 +56,12 @@ void run_entry(const BenchSuiteOptions& options) {
     cells_of_entry(entry.suite, {tasks.front()}, entry.planner, scenarios);
   }
   claim_entry_folder(options.out, entry, options.resume);
+  const auto frozen = std::ranges::count_if(tasks, &SuiteTask::is_frozen);
+  if (const auto loose = std::ssize(tasks) - frozen; loose > 0) {
+    say("{} of {} tasks of track {} are not frozen yet: no score, and nothing to submit", loose,
+        tasks.size(), options.track);
+  }
   fly_entry(options.out, entry, tasks, options.flights);
-  std::vector<std::string> loose;
-  for (const SuiteTask& task : tasks) {
-    if (!task.is_frozen()) loose.push_back(task.structure);
-  }
-  if (!loose.empty()) {
-    say("{} of {} tasks of track {} are not frozen yet: no score, and nothing to submit",
-        loose.size(), tasks.size(), options.track);
-  }
   fmt::print("{}\n", options.out.string());
 }
 
@@ -86,7 +83,9 @@ void verify_entry(const BenchSuiteOptions& options) {
   flights.only = options.only;
   const auto differences = verify_submission(entry, suite_of(options), folder, flights);
   const std::string file = entry.file.string();
-  for (const std::string& difference : differences) fmt::print("{}: {}\n", file, difference);
+  for (const std::string& difference : differences) {
+    fmt::print("{}: {}\n", file, printable(difference));
+  }
   if (!differences.empty()) {
     throw CommandFailed(fmt::format("{}: {} found, flown again with this program", file,
                                     counted(differences.size(), "difference")));

@@ -97,6 +97,8 @@ EntryPlanner entry_planner(const std::string& text, const std::vector<std::strin
   if (text == kRouteName) throw BadInput("--planner route: its views come from a command");
   for (const std::string& setting : settings) planner.settings.push_back({setting});
   if (!name.empty()) planner.name = name;
+  need_text("--planner " + text, "name", planner.name);
+  for (const std::string& setting : settings) need_text("--planner " + text, "--set", setting);
   return planner;
 }
 

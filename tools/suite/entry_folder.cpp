@@ -126,7 +126,13 @@ ScratchFolder::~ScratchFolder() {
 double planning_s(const fs::path& run) {
   const std::vector<ViewRecord> views = read_view_records(run / kIterationsFile);
   double all_s = 0.0;
-  for (const ViewRecord& view : views) all_s += view.wall.plan_s;
+  for (const ViewRecord& view : views) {
+    if (!(view.wall.plan_s >= 0.0)) {
+      throw BadInput(fmt::format("{}: plan_s: value {}: expects a number, 0 or more",
+                                 (run / kIterationsFile).string(), view.wall.plan_s));
+    }
+    all_s += view.wall.plan_s;
+  }
   return views.empty() ? 0.0 : all_s / static_cast<double>(views.size());
 }
 

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "bench/suite/standings.hpp"
 #include "sim/core/embed.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/page/page_text.hpp"
 #include "tools/page/report.hpp"
@@ -19,14 +18,11 @@ namespace fs = std::filesystem;
 
 GNBV_EMBED(suite_page_html, GNBV_SUITE_PAGE);
 
-/// What a file may be called, of a name that a stranger chose.
+/// What a file may be called, of a name that a stranger chose: another one for every name.
 std::string folder_name(const Submission& entry) {
-  std::string name = entry.track + "-";
-  for (const char c : entry.name) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
-    name += is_plain ? c : '_';
-  }
-  return name + "-" + entry.missions.front().figures.result_sha256.substr(0, 8);
+  Sha256 hash;
+  hash.add(entry.name);
+  return entry.track + "-" + hash.hex().substr(0, 16);
 }
 
 std::string mission_page(const Submission& entry, const std::string& task) {

@@ -42,6 +42,7 @@ Cell prepare(const Submission& submission, const Suite& suite, const SuiteTask& 
     const auto found = submission.records.find(member_name(task.structure, file));
     if (found != submission.records.end()) write_file_atomically(records / file, found->second);
   }
+  planning_s(records);  // throws
   return cells_of_entry(suite, {task}, planner_of(submission, records), scenarios).front();
 }
 
