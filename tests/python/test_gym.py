@@ -286,6 +286,22 @@ def test_candidates_and_seeds_are_checked_likewise():
     envs.step(envs.action_space.sample())
 
 
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("goal", 95), ("goal", -1.0), ("goal", np.nan), ("crop", 2.5), ("seeds", 1.5)]
+    + [("num_envs", 0)],
+)
+def test_arguments_that_mean_nothing_are_refused_by_name(name, value):
+    with pytest.raises(gnbv.BadInput, match=f"{name}: value"):
+        gnbv.gym.NbvVectorEnv(**{"num_envs": 1, name: value})
+
+
+def test_masks_and_beliefs_need_an_episode():
+    env = of_kind("single", action="candidate")
+    with pytest.raises(RuntimeError, match="action_masks: the episode was not reset"):
+        env.action_masks()
+
+
 @KINDS
 def test_a_picture_shows_the_map_and_the_way(kind):
     env = of_kind(kind, render_mode="rgb_array")

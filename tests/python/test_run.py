@@ -87,6 +87,22 @@ def test_bad_input_says_where(tmp_path):
     assert bad.value.line == 2
 
 
+@pytest.mark.parametrize(
+    ("named", "given"),
+    [(n, {n: v}) for n, v in [("bounds", "Auto"), ("bounds", None)]]
+    + [("threads", {"threads": value}) for value in (1.0, -1, 2**40, "2")]
+    + [("start.yaw_deg", {"set": {"start.yaw_deg": value}}) for value in (1j, object())],
+)
+def test_arguments_that_mean_nothing_are_bad_input(named, given):
+    with pytest.raises(gnbv.BadInput, match=named):
+        gnbv.run("smoke", **given)
+
+
+def test_a_setting_may_be_a_path(short, tmp_path):
+    with pytest.raises(gnbv.BadInput, match=f"terrain.path.*{tmp_path}/none.obj"):
+        gnbv.run("smoke", set={**short, "terrain.path": tmp_path / "none.obj"})
+
+
 def test_progress_is_told_and_may_raise(short):
     shares = []
     gnbv.run("smoke", set=short, progress=lambda share, note: shares.append(share))

@@ -65,6 +65,11 @@ class Episode:
         self.way = [self.state["view"][0]]
         return self.stage.observation(self.state, self.steps), self.info()
 
+    def need(self, asked: str) -> None:
+        """Raises RuntimeError where there is no mission that could answer."""
+        if self.lacks not in ("", "is over"):
+            raise RuntimeError(f"{asked}: the episode {self.lacks}; call reset()")
+
     def check_ready(self) -> None:
         if self.lacks:
             raise RuntimeError(f"step: the episode {self.lacks}; call reset()")
@@ -105,8 +110,7 @@ class Episode:
         return info
 
     def belief(self) -> Belief:
-        if self.lacks not in ("", "is over"):
-            raise RuntimeError(f"belief: the episode {self.lacks}; call reset()")
+        self.need("belief")
         frames = self.state.get("frames")
         return Belief(self.mission.belief(), None if frames is None else lambda: frames)
 
@@ -124,8 +128,7 @@ class Episode:
 
     def kept(self) -> State:
         """Raises RuntimeError where a step would raise for want of a mission."""
-        if self.lacks not in ("", "is over"):
-            raise RuntimeError(f"clone_state: the episode {self.lacks}; call reset()")
+        self.need("clone_state")
         try:
             moment = self.mission.keep()
         except RuntimeError:  # the vehicle touches something

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import sys
 from collections.abc import Callable, Mapping
@@ -18,6 +19,7 @@ from gnbv._utility import Utility, as_arguments, recorded_planner
 
 PathLike = Union[str, "os.PathLike[str]"]
 Progress = Callable[[float, str], None]
+MOST_THREADS = 1024
 
 
 def run(
@@ -69,13 +71,16 @@ def run(
     """
     if planner is not None and utility is not None:
         raise BadInput("planner: a planner chooses without a utility; give one of the two")
+    if bounds not in ("scenario", "auto"):
+        raise BadInput(f"bounds: value {bounds!r}: expected 'scenario' or 'auto'")
+    threads = whole("threads", threads, 0, MOST_THREADS)
     os.environ.setdefault("GNBV_PYTHON", sys.executable)
     with ExitStack() as stack:
         is_here = callable(planner)
         in_text = [each for each in (utility, planner) if each is not None and not is_here]
         arguments = stack.enter_context(as_arguments(in_text))
         chosen = "route" if is_here else arguments[0] if arguments else ""
-        overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
+        overrides = settings(set)
         given = {
             "scenario": os.fspath(scenario),
             "mesh": os.fspath(mesh) if mesh is not None else "",
@@ -110,11 +115,31 @@ def _checked(folder: str, termination: str, failure: str) -> Run:
     return Run(folder)
 
 
-def _yaml(value: Any) -> str:
-    """A value as YAML, of which JSON is a part; a str is taken for YAML already."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    return value if isinstance(value, str) else json.dumps(value)
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """An argument that is a whole number in those bounds. Raises BadInput for another."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = low - 1
+    if not low <= number <= high:
+        raise BadInput(f"{name}: value {value!r}: expected a whole number from {low} to {high}")
+    return number
+
+
+def settings(values: Mapping[str, Any] | None) -> list[str]:
+    """KEY=YAML of each, JSON being a part of YAML; a str is taken for YAML already."""
+
+    def plain(value: Any) -> Any:
+        return value.tolist() if hasattr(value, "tolist") else os.fspath(value)
+
+    texts = []
+    for key, value in (values or {}).items():
+        try:
+            text = value if isinstance(value, str) else json.dumps(value, default=plain)
+        except (TypeError, ValueError) as error:
+            raise BadInput(f"set: {key}: value {value!r:.100}: {error}") from error
+        texts.append(f"{key}={text}")
+    return texts
 
 
 class _Shown:

@@ -11,8 +11,9 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from gnbv import _core
+from gnbv._errors import BadInput
 from gnbv._frames import Frame
-from gnbv._mission import _yaml
+from gnbv._mission import MOST_THREADS, settings, whole
 
 METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 4}
 OBSERVE = ("depth", "rgb", "crop", "poses")
@@ -39,22 +40,22 @@ class Stage:
             raise ValueError(f"action={action!r}: expected 'view' or 'candidate'")
         if render_mode not in (None, *METADATA["render_modes"]):
             raise ValueError(f"render_mode={render_mode!r}: expected None or 'rgb_array'")
-        if seeds < 0:
-            raise ValueError(f"seeds={seeds}: expected 0 or more")
+        if not 0.0 <= goal <= 1.0:
+            raise BadInput(f"goal: value {goal!r}: expected a share of the ceiling, 0 to 1")
+        seeds = whole("seeds", seeds, 0, 2**31)
+        threads = whole("threads", threads, 0, MOST_THREADS)
+        crop = whole("crop", crop, 1, 256)
         self.seeds = seeds or 2**31
         unknown = [name for name in observe if name not in OBSERVE]
         if unknown or isinstance(observe, str):
             raise ValueError(f"observe={observe!r}: expected some of {', '.join(OBSERVE)}")
-        if not 1 <= crop <= 256:
-            raise ValueError(f"crop={crop}: expected 1 to 256 voxels")
         if "poses" in observe and action != "candidate":
             raise ValueError("observe: poses are those of action='candidate'")
         self.observe, self.crop = tuple(observe), crop
         made_of = (repr(dict(set or {})), render_mode, seeds, self.observe, crop)
         self.made_by = (str(scenario), action, goal, *made_of)
         self.draws = render_mode is not None
-        overrides = [f"{key}={_yaml(value)}" for key, value in (set or {}).items()]
-        self.core = _core.EnvStage(scenario, overrides, goal, seeds)
+        self.core = _core.EnvStage(scenario, settings(set), goal, seeds)
         self.permits = _core.Permits(max(1, threads or os.cpu_count() or 1))
         self.about: dict[str, Any] = self.core.description
         self.is_candidate = action == "candidate"

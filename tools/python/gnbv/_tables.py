@@ -11,7 +11,8 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from gnbv._mission import _yaml
+from gnbv._errors import BadInput
+from gnbv._mission import settings
 from gnbv._program import call
 from gnbv._utility import Utilities, as_arguments
 
@@ -83,11 +84,10 @@ def compare(
     Raises BadInput, Failed (a mission failed; the message says which) or KeyboardInterrupt.
     """
     extra = [] if ceiling else ["--no-ceiling"]
-    if presets := list(presets):
-        extra += ["--presets", ",".join(presets)]
+    if names := _listed("presets", presets):
+        extra += ["--presets", _joined("presets", names)]
     for name, values in (variants or {}).items():
-        settings = ",".join(f"{key}={_yaml(value)}" for key, value in values.items())
-        extra += ["--variant", f"{name}:{settings}"]
+        extra += ["--variant", f"{name}:{','.join(settings(values))}"]
     command = ["compare", *(os.fspath(scenario) for scenario in scenarios)]
     return _tables(command, seeds=seeds, extra=extra, utilities=utilities, **options)
 
@@ -110,12 +110,28 @@ def _tables(
     arguments += ["--seed", str(seed)] if seed is not None else []
     arguments += ["--mesh", os.fspath(mesh)] if mesh is not None else []
     arguments += ["--out", os.fspath(out)] if out is not None else []
-    for key, value in (set or {}).items():
-        arguments += ["--set", f"{key}={_yaml(value)}"]
+    for setting in settings(set):
+        arguments += ["--set", setting]
+    if not isinstance(utilities, Mapping):
+        utilities = _listed("utilities", utilities)
     with as_arguments(utilities) as names:
-        arguments += ["--utilities", ",".join(names)] if names else []
+        arguments += ["--utilities", _joined("utilities", names)] if names else []
         said = call(*arguments)
     return [_table(read) for read in _documents(said)]
+
+
+def _listed(what: str, names: Any) -> list[Any]:
+    if isinstance(names, (str, os.PathLike)) or not isinstance(names, Iterable):
+        raise BadInput(f"{what}: value {names!r}: expected a list of them, perhaps of one")
+    return list(names)
+
+
+def _joined(what: str, names: list[str]) -> str:
+    """As the program takes a list."""
+    for name in names:
+        if "," in name:
+            raise BadInput(f"{what}: value {name!r}: expected one without commas, in its path, too")
+    return ",".join(names)
 
 
 def _documents(text: str) -> list[dict[str, Any]]:

@@ -66,6 +66,7 @@ if int(gymnasium.__version__.split(".")[0]) < 1:
 import numpy as np
 
 from gnbv._episode import Episode, State
+from gnbv._mission import whole
 from gnbv._planner import Belief
 from gnbv._stage import METADATA, Array, Observation, Stage
 
@@ -146,6 +147,7 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
 
     def action_masks(self) -> Array:
         """As info["action_mask"], under the name that sb3-contrib asks for."""
+        self._episode.need("action_masks")
         return np.asarray(self._episode.state["mask"], dtype=bool)
 
     def clone_state(self) -> State:
@@ -213,7 +215,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         observe: Sequence[str] = (),
         crop: int = 32,
     ) -> None:
-        self.num_envs = num_envs
+        self.num_envs = num_envs = whole("num_envs", num_envs, 1, 2**31)
         self.render_mode = render_mode
         self._stage = Stage(scenario, action, goal, set, threads, render_mode, seeds, observe, crop)
         self._episodes = [Episode(self._stage) for _ in range(num_envs)]
