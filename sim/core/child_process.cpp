@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -158,6 +159,11 @@ void ChildProcess::read(char* bytes, std::size_t count) {
     bytes += got;
     count -= static_cast<std::size_t>(got);
   }
+}
+
+bool ChildProcess::speaks_within(milliseconds patience) const {
+  pollfd from{.fd = from_child_, .events = POLLIN, .revents = 0};
+  return !is_open_ || ::poll(&from, 1, static_cast<int>(patience.count())) > 0;
 }
 
 std::string ChildProcess::read_line() {

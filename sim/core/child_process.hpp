@@ -60,6 +60,8 @@ class ChildProcess {
 
   void write(std::string_view bytes);
   void read(char* bytes, std::size_t count);
+  /// Whether something can be read by then, if only that nothing more will come.
+  bool speaks_within(std::chrono::milliseconds patience) const;
   std::string read_line();  // without its line feed
   std::string read_all();   // up to the end of its output
   /// Whether all that was written and read so far has come across.

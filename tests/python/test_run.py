@@ -8,6 +8,7 @@ import subprocess
 import sys
 import textwrap
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -236,6 +237,30 @@ def test_no_ctrl_c_kills_python_and_one_that_comes_late_is_pythons():
             print(gnbv.load("r").termination)
     """)
     assert said == ["max_iterations"]
+
+
+@pytest.mark.parametrize(
+    ("what", "body"),
+    [("planner", "while True: pass"), ("planner", "time.sleep(600)"), ("utility", "time.sleep(600)")],
+)
+def test_a_second_ctrl_c_ends_what_the_users_own_code_does(what, body):
+    """That code runs in this process (a planner) or in one of its own (a utility)."""
+    Path("own.py").write_text(
+        "def own(*asked):\n"
+        "    import os, subprocess, time\n"
+        "    twice = 'for i in 1 2; do sleep 0.5; kill -INT ' + os.environ['MISSION'] + '; done'\n"
+        "    subprocess.Popen(['sh', '-c', twice])\n"
+        f"    {body}\n"
+    )
+    said = python_says(f"""
+        import gnbv, os, own
+        os.environ["MISSION"] = str(os.getpid())
+        try:
+            gnbv.run("smoke", {what}=own.own, out="r")
+        except KeyboardInterrupt:
+            print(gnbv.load("r").termination)
+    """)
+    assert said == ["interrupted"]
 
 
 def test_the_command_is_the_program():

@@ -1,4 +1,5 @@
 #include <bit>
+#include <csignal>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "sim/core/error.hpp"
 #include "tools/mission/belief_questions.hpp"
 #include "tools/mission/user_planner.hpp"
+#include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {
 namespace {
@@ -103,8 +105,13 @@ class UserChild {
     child_.write(message.bytes);
   }
 
-  /// Without any field when it has ended.
+  /// Without any field when it has ended, or is ended because nobody waits any longer.
   Message receive() {
+    while (!child_.speaks_within(std::chrono::milliseconds(100))) {
+      if (!is_given_up()) continue;
+      child_.send(SIGKILL);
+      return {};
+    }
     Message message{.fields = Json::parse(child_.read_line(), nullptr, false), .bytes = {}};
     if (!message.fields.is_object()) return {};
     message.bytes.resize(message.fields.value("bytes", std::size_t{0}));
@@ -118,6 +125,7 @@ class UserChild {
     const std::string where = fmt::format("{}: iteration {}", who_, iteration);
     const auto error = answer.fields.find("error");
     if (error == answer.fields.end()) {
+      if (is_given_up()) throw StopRequested();
       throw UserUtilityFailed(fmt::format("{}: its Python ended ({})", where, child_.end().text()));
     }
     throw UserUtilityFailed(fmt::format("{}{}: {}", where, of_row(answer.fields.value("row", -1)),
@@ -125,6 +133,9 @@ class UserChild {
   }
 
  private:
+  /// Asked to stop once, the mission ends after the answer; asked again, it waits for none.
+  static bool is_given_up() { return InterruptGuard::requests() > 1; }
+
   std::string who_;
   ChildProcess child_;
 };

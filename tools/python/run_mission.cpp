@@ -218,10 +218,11 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress,
   std::unique_ptr<ExecutedMission> mission;
   {
     const nb::gil_scoped_release other_threads_run;
-    const InterruptGuard interrupt(InterruptGuard::kNeverKills);
+    const InterruptGuard interrupt(InterruptGuard::kGuest);
     mission = std::make_unique<ExecutedMission>(execute_mission(scenario, options));
     const bool is_heard = mission->result.termination == Termination::interrupted;
-    if (InterruptGuard::requested() && !is_heard) PyErr_SetInterrupt();  // it is for Python, then
+    // it is for Python, then; a second one it has already
+    if (InterruptGuard::requests() == 1 && !is_heard) PyErr_SetInterrupt();
   }
   const MissionResult& result = mission->result;
   const std::string_view ended = name_of(result.termination);

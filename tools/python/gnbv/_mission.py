@@ -65,7 +65,8 @@ def run(
             traceback; the run directory is complete.
         Interrupted: Ctrl-C; the mission ended after the view at hand, and so did all that flew in
             other threads.
-        KeyboardInterrupt: Ctrl-C when the last view was taken; the run directory is complete.
+        KeyboardInterrupt: Ctrl-C when the last view was taken; the run directory is complete. And
+            a second Ctrl-C, in a function of your own, too; one in a file is killed.
         Failed: the vehicle hit something or was carried away; the run directory shows where.
         Whatever the planner raised, after the mission has ended in order.
     """
