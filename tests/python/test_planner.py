@@ -263,10 +263,36 @@ def test_a_refused_view_is_told_and_asked_again():
     gnbv.run("smoke", planner=stubborn)
 
 
-@pytest.mark.parametrize("answer", [[1.0, 2.0], [np.nan] * 4, "there"])
+@pytest.mark.parametrize(
+    "answer",
+    [[1.0, 2.0], [np.nan] * 4, "there", {"x": 1.0}, [[1.0, 2.0], [3.0]], [1.0, 2.0, None, 3.0]]
+    + [np.zeros(4) * 1j, np.ma.masked_array(np.zeros((2, 4)), mask=True), np.zeros((1, 1, 4))],
+)
 def test_what_is_no_view_is_refused(answer):
-    with pytest.raises((gnbv.BadInput, ValueError)):
+    with pytest.raises(gnbv.BadInput, match="view: expected finite"):
         gnbv.run("smoke", planner=lambda belief, history: answer)
+
+
+def test_questions_that_no_map_can_answer_are_bad_input(short):
+    asked = []
+
+    def asks(belief, history):
+        with pytest.raises(gnbv.BadInput, match=r"view 1, View\(x=1000000000.0"):
+            belief.evaluate([[0, 0, 1, 0], [1e9, 0, 0, 0]])
+        for scale in (np.nan, np.inf, -1.0):
+            with pytest.raises(gnbv.BadInput, match="scale"):
+                belief.sample(scale)
+        asked.append(len(belief.evaluate([[1e3, 0, -50, 0]])))
+
+    gnbv.run("smoke", planner=asks, set=short)
+    assert asked == [1]
+
+
+def test_a_planner_in_a_file_that_asks_the_terminal_hears_that_nobody_is_there(tmp_path):
+    file = tmp_path / "asks.py"
+    file.write_text("def plan(belief, history): return input('where to? ')")
+    with pytest.raises(gnbv.UtilityFailed, match="EOFError"):
+        gnbv.run("smoke", planner=f"{file}:plan")
 
 
 def test_ways_lead_around():

@@ -110,6 +110,22 @@ def test_functions_and_planners_are_rows_like_every_other(short, tmp_path):
     assert sorted(path.name for path in (tmp_path / "c" / "cells").iterdir()) == flown
 
 
+@pytest.mark.parametrize("given", ["proposed", ["proposed", "my,dir/own.py:gain"], 3])
+def test_utilities_are_a_list_and_hold_no_commas(given, tmp_path):
+    with pytest.raises(gnbv.BadInput, match="utilities: value"):
+        gnbv.compare("smoke", utilities=given, out=tmp_path / "c")
+
+
+@pytest.mark.parametrize(
+    "answer", ["'abc'", "['a'] * len(v)", "v['rays'] * 1j", "{'a': 1}", "[[1], [2, 3]]"]
+)
+def test_what_is_no_score_is_shown(answer, tmp_path):
+    file = tmp_path / "own.py"
+    file.write_text(f"def gain(v): return {answer}")
+    with pytest.raises(gnbv.UtilityFailed, match=r"(?s)returned .*expected a number a row"):
+        gnbv.run("smoke", utility=f"{file}:gain")
+
+
 def test_names_are_words(tmp_path):
     for name in ("", "a b", "a,b", "a=b"):
         with pytest.raises(gnbv.BadInput, match="a name is one word"):

@@ -16,6 +16,7 @@ signal.signal(signal.SIGINT, signal.SIG_IGN)  # the mission ends in order, and t
 PR_SET_PDEATHSIG = 1  # as the program set it, for the child of a wrapper that GNBV_PYTHON names
 ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 hear = os.fdopen(os.dup(0), "rb")
+os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # what the function reads is not ours
 tell = os.fdopen(os.dup(1), "wb")
 os.dup2(2, 1)
 
@@ -63,12 +64,15 @@ def lone_fault(function, stats):
     return -1
 
 
-def scores_of(function, stats, file):
+def scores_of(function, stats, file, numbers):
     """(scores, row at fault or -1, what is wrong)"""
     try:
-        scores = numpy.asarray(function(stats), dtype=numpy.float64)
+        answer = function(stats)
     except Exception as error:
         return None, lone_fault(function, stats), text_of(error, file)
+    scores = numbers(answer)
+    if scores is None:
+        return None, -1, f"returned {answer!r:.200}, expected a number a row"
     if scores.shape != stats.shape:
         return None, -1, f"returned shape {scores.shape}, expected {stats.shape}: a score a row"
     wrong = numpy.flatnonzero(~numpy.isfinite(scores))
@@ -77,11 +81,11 @@ def scores_of(function, stats, file):
     return numpy.ascontiguousarray(scores), -1, ""
 
 
-def score(function, hello):
+def score(function, hello, module):
     dtype = numpy.dtype(hello["dtype"])
     while True:
         stats = numpy.frombuffer(receive()[1], dtype)
-        scores, row, wrong = scores_of(function, stats, hello["file"])
+        scores, row, wrong = scores_of(function, stats, hello["file"], module.numbers)
         if scores is None:
             send({"error": wrong, "row": row})
         else:
@@ -199,7 +203,7 @@ def plan(function, hello, module):
 def main():
     hello, _ = receive()
     is_planner = hello["kind"] == "planner"
-    module = planner_module(hello) if is_planner else None
+    module = planner_module(hello)
     try:
         function = load(hello, {"View": module.View} if is_planner else {})
     except BaseException as error:
@@ -207,7 +211,7 @@ def main():
     send({"python": sys.version.split()[0], "numpy": numpy.__version__})
     if is_planner:
         plan(function, hello, module)
-    score(function, hello)
+    score(function, hello, module)
 
 
 try:

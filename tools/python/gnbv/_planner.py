@@ -124,7 +124,10 @@ class Belief:
         return View(*map(float, self._view.current[0]))
 
     def sample(self, scale: float = 1.0) -> npt.NDArray[np.float64]:
-        """Views on the grid around the current one (AGVS); n x 5, as View."""
+        """Views on the grid around the current one (AGVS), its steps times `scale`; n x 5, as
+        View."""
+        if not 0.0 <= scale < np.inf:
+            raise BadInput(f"sample: scale {scale!r}: expected a number from 0")
         return self._view.sample(scale)  # type: ignore[no-any-return]
 
     def sample_frontiers(self) -> npt.NDArray[np.float64]:
@@ -158,6 +161,8 @@ class Belief:
         length of the way around. Only utilities get proximity_sum and shadow_rays.
         """
         rows = view_rows(views)
+        for i in np.flatnonzero(np.abs(rows[:, :3]).max(axis=1, initial=0.0) > _FARTHEST_M)[:1]:
+            raise BadInput(f"evaluate: view {i}, {View(*rows[i].tolist())}: is beyond all maps")
         return np.frombuffer(self._view.evaluate(rows), np.dtype(self._view.stats_dtype))
 
     def find_path(
@@ -196,6 +201,7 @@ class History:
 Answer = Optional[Views]
 Planner = Callable[[Belief, History], Answer]
 _MOST_REFUSED = 1000
+_FARTHEST_M = 1e6
 
 
 class AskedPlanner:
@@ -235,12 +241,25 @@ class AskedPlanner:
         )
 
 
+def numbers(given: Any) -> npt.NDArray[np.float64] | None:
+    """As an array. None for what is no real numbers, such as text, complex or masked ones."""
+    try:
+        array = np.asanyarray(given)
+        if array.dtype.kind not in "biufO" or np.ma.is_masked(array):
+            return None
+        return np.asarray(array, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+
+
 def view_rows(views: Any) -> npt.NDArray[np.float64]:
     """Views as rows of five finite numbers. Raises BadInput for anything else."""
-    rows = np.atleast_2d(np.asarray(views, dtype=np.float64))
-    if rows.size == 0:
+    rows = numbers(views)
+    if rows is not None and rows.size == 0:
         return np.empty((0, 5))
-    if rows.ndim != 2 or rows.shape[1] not in (4, 5) or not np.isfinite(rows).all():
+    if rows is not None:
+        rows = np.atleast_2d(rows)
+    if rows is None or rows.ndim != 2 or rows.shape[1] not in (4, 5) or not np.isfinite(rows).all():
         raise BadInput(
             f"view: expected finite x, y, z, yaw and perhaps gimbal_pitch, got {views!r:.200}"
         )
