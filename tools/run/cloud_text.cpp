@@ -22,9 +22,12 @@ bool has_decimal_commas(std::string_view line) {
   for (int i = 0; i < 2; ++i) {
     const std::string_view word = take_word(line);
     const auto commas = [](std::string_view of) { return std::count(of.begin(), of.end(), ','); };
+    const auto may_be_decimal = [&](std::string_view of) {
+      return commas(of) == 1 && of.find('.') == of.npos;
+    };
     if (word.empty() || commas(before) > 1) return false;
     const bool are_parted = before.ends_with(',') || word.starts_with(',');
-    if (!are_parted && (commas(before) == 1 || commas(word) == 1)) return true;
+    if (!are_parted && (may_be_decimal(before) || may_be_decimal(word))) return true;
     before = word;
   }
   return false;
@@ -32,11 +35,12 @@ bool has_decimal_commas(std::string_view line) {
 
 constexpr std::string_view kCommasAndBlanks = ", ";
 
-/// What parts the fields of a line: commas only where it has neither semicolons nor tabs.
-std::string_view separators_of(std::string_view line, bool may_hold_blanks) {
+/// What parts the fields of a line: commas only where it has neither semicolons nor tabs. A name of
+/// a column may hold blanks.
+std::string_view separators_of(std::string_view line, bool is_of_names) {
   if (line.find(';') != line.npos) return ";";
-  if (line.find('\t') != line.npos) return may_hold_blanks ? "\t" : " \t";
-  return may_hold_blanks && line.find(',') != line.npos ? "," : kCommasAndBlanks;
+  if (line.find('\t') != line.npos) return is_of_names ? "\t" : " \t";
+  return is_of_names && line.find(',') != line.npos ? "," : kCommasAndBlanks;
 }
 
 /// What stands between blanks, or between other separators, the first of these: there a field may
@@ -81,7 +85,7 @@ class TextCloud {
   }
 
   void take_row() {
-    if (is_first_ && (takes_names(true) || takes_names(false))) return;
+    if (is_first_ && takes_names()) return;
     // rows may be parted in another way than their names
     const bool is_as_names = is_named_ && line_.find_first_of(separators_) != line_.npos;
     const std::string_view separators = is_as_names ? separators_ : separators_of(line_, false);
@@ -127,8 +131,8 @@ class TextCloud {
     return true;
   }
 
-  bool takes_names(bool may_hold_blanks) {
-    separators_ = separators_of(line_, may_hold_blanks);
+  bool takes_names() {
+    separators_ = separators_of(line_, true);
     split_fields(line_, separators_, fields_);
     if (read_decimal(fields_.front())) return false;
     constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};

@@ -145,10 +145,14 @@ TEST(Advice, WhatMayLieOnItsSideIsAHintAndNoMore) {
   const std::string text = terminal_text(report);
   EXPECT_NE(text.find("if it lies on its side: --set structure.file.up_axis=y"), text.npos) << text;
   // a wall that begins at x = 0, a pole and a floating wall at y = 0
-  for (const Boxes& standing : {boxes, Boxes({Box3(Vec3(0, -0.2, -0.3), Vec3(10, 0.2, 6))}),
-                                Boxes({Box3(Vec3(-0.1, 0, -1), Vec3(0.1, 0.2, 8))}),
-                                Boxes({Box3(Vec3(-5, 0, 0.2), Vec3(5, 0.3, 4))})}) {
-    for (const std::string& set : standing.report().advice.sets()) {
+  std::vector<MeshReport> reports = {report};
+  for (const Box3& standing :
+       {Box3(Vec3(0, -0.2, -0.3), Vec3(10, 0.2, 6)), Box3(Vec3(-0.1, 0, -1), Vec3(0.1, 0.2, 8)),
+        Box3(Vec3(-5, 0, 0.2), Vec3(5, 0.3, 4))}) {
+    reports.push_back(Boxes({standing}).report());
+  }
+  for (const MeshReport& of : reports) {
+    for (const std::string& set : of.advice.sets()) {
       EXPECT_EQ(set.find("up_axis"), set.npos) << set;
     }
   }

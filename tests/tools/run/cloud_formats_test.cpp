@@ -110,7 +110,7 @@ TEST_F(CloudFormats, TextsOfManyPrograms) {
   EXPECT_EQ(points_of("a.csv", "\"id\",\"Y\", X,Z\n1,2,1,3\n2,0,-4.5,1e-3\n3,7,0.1,-8\n"), kPoints);
   EXPECT_EQ(points_of("a.csv", "the note\tx\ty\tz\n1,5 m\t1\t2\t3\n\t-4.5\t0\t1e-3\n\t0.1\t7\t-8"),
             kPoints);
-  EXPECT_EQ(points_of("a.csv", "1, 2,3\n-4.5 ,0 ,1e-3 7,5\n0.1,7,-8 9"), kPoints);
+  EXPECT_EQ(points_of("a.csv", "1, 2,3\n-4.5 ,0 ,1e-3 7,5\n0.1 7.0,-8 9"), kPoints);
 }
 
 TEST_F(CloudFormats, TextsThatMissSomethingAreNamedWithTheirLine) {
