@@ -116,7 +116,7 @@ Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parame
   }
   if (flight.stage == Stage::go_home ||
       (flight.stage == Stage::land && flight.mode == NavState::rtl)) {
-    const Vec2 way_m = flight.home_world_m - p_world_m.head<2>();
+    const Vec2 way_m = (flight.home_world_m - p_world_m).head<2>();
     const double speed_m_s = std::min(parameters.cruise_speed_m_s,
                                       braking_speed(way_m.norm(), level_limits(parameters)));
     v_m_s.head<2>() = speed_m_s * way_m.normalized();
@@ -126,7 +126,8 @@ Vec3 wanted_velocity(const AutoFlight& flight, const CommanderParameters& parame
 
 void move_trajectory(AutoFlight& flight, const CommanderParameters& parameters,
                      const Vec3& p_world_m, double dt_s) {
-  const Vec3 wanted = wanted_velocity(flight, parameters, p_world_m.z());
+  const double height_m = p_world_m.z() - flight.home_world_m.z();
+  const Vec3 wanted = wanted_velocity(flight, parameters, height_m);
   // the trajectory waits for a vehicle that is left behind
   const double error_m = (each(flight, &Motion::position) - p_world_m).head<2>().norm();
   const double pace = std::max(0.0, 1.0 - error_m / parameters.path_error_max_m);
@@ -242,8 +243,7 @@ LandDetector next(const LandDetector& detector, const CommanderParameters& param
 }
 
 AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
-                      const VehicleState& estimate, const Eigen::Vector2d& home_world_m,
-                      double altitude_m) {
+                      const VehicleState& estimate, const Vec3& home_world_m, double altitude_m) {
   const Vec3 p_world_m = estimate.T_world_body.translation();
   const bool returns = mode == NavState::rtl;
   AutoFlight flight{.stage = returns || mode == NavState::takeoff ? Stage::climb
@@ -257,12 +257,12 @@ AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
     flight.axes[static_cast<std::size_t>(i)] = {p_world_m[i], estimate.v_world_m_s[i], 0.0};
   }
   if (returns) {  // near home no higher than a cone of 45 deg above it
-    const double distance_m = (p_world_m.head<2>() - home_world_m).norm();
+    const double distance_m = (p_world_m - home_world_m).head<2>().norm();
     altitude_m = parameters.return_altitude_m;
     if (distance_m <= parameters.return_distance_min_m)
       altitude_m = std::min(altitude_m, distance_m);
   }
-  flight.altitude_m = std::max(p_world_m.z(), altitude_m);
+  flight.altitude_m = std::max(p_world_m.z(), home_world_m.z() + altitude_m);
   return flight;
 }
 
@@ -270,7 +270,7 @@ Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,
                    const VehicleState& estimate, double dt_s) {
   const Vec3 p_world_m = estimate.T_world_body.translation();
   if (flight.mode == NavState::rtl) {
-    const double distance_m = (flight.home_world_m - p_world_m.head<2>()).norm();
+    const double distance_m = (flight.home_world_m - p_world_m).head<2>().norm();
     if (flight.stage == Stage::go_home && distance_m < kHomeArrival_m) flight.stage = Stage::land;
     if (flight.stage == Stage::climb && is_at_altitude(flight, p_world_m)) {
       flight.stage = Stage::go_home;

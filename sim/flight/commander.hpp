@@ -102,8 +102,8 @@ struct AutoFlight {
   NavState mode = NavState::hold;
   std::array<Motion, 3> axes;  // the trajectory, world ENU
   double yaw_rad = 0.0;
-  double altitude_m = 0.0;  // that `climb` ends at, world z
-  Eigen::Vector2d home_world_m = Eigen::Vector2d::Zero();
+  double altitude_m = 0.0;               // that `climb` ends at, world z
+  Vec3 home_world_m = Vec3::Zero();      // on the ground
   Vec3 goal_world_m = Vec3::Zero();      // of `go_to`
   double goal_yaw_rad = kNotControlled;  // NaN: as it is
   double speed_m_s = 0.0;                // over ground; 0: MPC_XY_CRUISE
@@ -117,10 +117,9 @@ constexpr double kAltitudeArrival_m = 0.8;
 void go_to(AutoFlight& flight, const Vec3& goal_world_m, double yaw_rad);
 
 /// Begins a mode where the vehicle is and with the velocity it has. `altitude_m`: that of a
-/// takeoff, above the ground (world z = 0); a vehicle that is higher stays there.
+/// takeoff, above home; a vehicle that is higher stays there.
 AutoFlight begin_auto(NavState mode, const CommanderParameters& parameters,
-                      const VehicleState& estimate, const Eigen::Vector2d& home_world_m,
-                      double altitude_m);
+                      const VehicleState& estimate, const Vec3& home_world_m, double altitude_m);
 
 /// The setpoint `dt_s` after the last.
 Setpoint step_auto(AutoFlight& flight, const CommanderParameters& parameters,

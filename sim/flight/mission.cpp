@@ -9,8 +9,10 @@ using Kind = MissionStep::Kind;
 using Phase = UploadedMission::Phase;
 
 /// Axes that are not said stay where the vehicle is.
-Vec3 place_of(const MissionStep& step, const Vec3& p_world_m) {
-  return step.p_world_m.array().isNaN().select(p_world_m, step.p_world_m);
+Vec3 place_of(const MissionStep& step, const AutoFlight& flight, const Vec3& p_world_m) {
+  Vec3 said_m = step.p_world_m;
+  if (step.is_above_home) said_m.z() += flight.home_world_m.z();
+  return said_m.array().isNaN().select(p_world_m, said_m);
 }
 
 /// Landings begin above their place, and takeoffs as well as waypoints from the ground with a
@@ -18,14 +20,14 @@ Vec3 place_of(const MissionStep& step, const Vec3& p_world_m) {
 void begin_step(UploadedMission& mission, AutoFlight& flight, const CommanderParameters& parameters,
                 const Vec3& p_world_m, bool is_landed) {
   const MissionStep& step = mission.steps[mission.current];
-  Vec3 goal_m = place_of(step, p_world_m);
+  Vec3 goal_m = place_of(step, flight, p_world_m);
   mission.is_complete = false;
   mission.held_s = 0.0;
   mission.phase = Phase::goes;
   if (step.kind == Kind::takeoff || is_landed) {
     mission.phase = Phase::climbs;
     if (step.kind != Kind::takeoff)
-      goal_m.z() = std::max(goal_m.z(), parameters.takeoff_altitude_m);
+      goal_m.z() = std::max(goal_m.z(), flight.home_world_m.z() + parameters.takeoff_altitude_m);
     goal_m.head<2>() = p_world_m.head<2>();
   } else if (step.kind == Kind::land) {
     goal_m.z() = p_world_m.z();
@@ -45,7 +47,7 @@ bool step_on(UploadedMission& mission, AutoFlight& flight, const Vec3& p_world_m
     case Phase::climbs:
       if (!is_level) return false;
       mission.phase = Phase::goes;
-      go_to(flight, place_of(step, flight.goal_world_m), step.yaw_rad);
+      go_to(flight, place_of(step, flight, flight.goal_world_m), step.yaw_rad);
       if (step.kind == Kind::land) flight.goal_world_m.z() = p_world_m.z();
       return false;
     case Phase::goes:

@@ -14,6 +14,7 @@ struct MissionStep {
   enum class Kind : std::uint8_t { waypoint, takeoff, land, return_home, speed, nothing };
   Kind kind = Kind::nothing;
   Vec3 p_world_m = Vec3::Constant(kNotControlled);  // an axis that is NaN: where it is by then
+  bool is_above_home = false;                       // z counts from home
   double yaw_rad = kNotControlled;                  // NaN: towards the place
   double hold_s = 0.0;                              // stays this long, or for ever
   double acceptance_m = 2.0;                        // reached: nearer than this, seen from above

@@ -42,10 +42,14 @@ Px4::Px4(const AutopilotParameters& parameters, const AirframeParameters& airfra
       airframe_(airframe),
       allocation_(allocation_of(airframe)),
       estimate_(start),
-      home_world_m_(start.T_world_body.translation().head<2>()),
+      home_world_m_(start.T_world_body.translation()),
       tilt_limit_rad_(parameters.commander.tilt_max_on_ground_rad) {
   hover_command(airframe);  // throws for a vehicle that cannot hover
-  if (how == Start::on_ground) return;
+  if (how == Start::on_ground) {
+    set_home();
+    return;
+  }
+  home_world_m_.z() = 0.0;  // the ground below is not known
   intention_ = intention_after_disarming_ = nav_state_ = NavState::offboard;
   is_armed_ = has_flown_ = true;
   takeoff_.phase = TakeoffPhase::flight;
@@ -79,7 +83,7 @@ Ack Px4::command(const Px4Command& command) {
       const double altitude_m = command.param[6];
       const Ack ack = set_mode(NavState::takeoff);
       if (ack == Ack::accepted && std::isfinite(altitude_m)) {
-        takeoff_altitude_m_ = altitude_m;
+        takeoff_altitude_m_ = altitude_m - home_world_m_.z();
         if (nav_state_ == NavState::takeoff) enter(NavState::takeoff);
       }
       return ack;
@@ -169,12 +173,17 @@ Ack Px4::arm(bool armed, bool force) {
   is_armed_ = true;
   has_flown_ = false;
   landed_ticks_ = 0;
-  home_world_m_ = estimate_.T_world_body.translation().head<2>();
+  set_home();
   position_ = {};
   rate_ = {};
   say(kSeverityInfo, "Armed");
   update_mode();
   return Ack::accepted;
+}
+
+void Px4::set_home() {
+  const Vec3 p_world_m = estimate_.T_world_body.translation();
+  home_world_m_ = p_world_m - 0.5 * airframe_.hull_height_m * Vec3::UnitZ();
 }
 
 Ack Px4::set_mode(NavState mode) {

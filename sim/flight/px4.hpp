@@ -22,10 +22,10 @@ enum class Ack : std::uint8_t { accepted, temporarily_rejected, denied, unsuppor
 
 /// A MAV_CMD with its seven parameters, as COMMAND_LONG carries them. Known: 400
 /// COMPONENT_ARM_DISARM (21196 in param2 forces), 176 DO_SET_MODE (param2 main mode, param3 sub
-/// mode, PX4's custom modes), 22 NAV_TAKEOFF (param7: altitude above the ground in metres, NaN for
-/// the default), 21 NAV_LAND, 20 NAV_RETURN_TO_LAUNCH, 178 DO_CHANGE_SPEED (param1 0 to 3, param2
-/// m/s, -1 as it is, -2 the default), 300 MISSION_START (param1: the first step; arms as well), 224
-/// DO_SET_MISSION_CURRENT.
+/// mode, PX4's custom modes), 22 NAV_TAKEOFF (param7: altitude in metres above the sea, world
+/// z = 0, NaN for MIS_TAKEOFF_ALT above home), 21 NAV_LAND, 20 NAV_RETURN_TO_LAUNCH, 178
+/// DO_CHANGE_SPEED (param1 0 to 3, param2 m/s, -1 as it is, -2 the default), 300 MISSION_START
+/// (param1: the first step; arms as well), 224 DO_SET_MISSION_CURRENT.
 struct Px4Command {
   std::uint16_t id = 0;
   std::array<float, 7> param{};
@@ -81,8 +81,9 @@ class Px4 {
   bool is_taking_off() const;  // in the air; so is the next
   bool is_landing() const;
   bool is_in_failsafe() const { return is_in_failsafe_; }
-  /// Where it was armed last; before that where it stood.
-  const Eigen::Vector2d& home_world_m() const { return home_world_m_; }
+  /// The ground where it was armed last; before that where it stood. What is above home is above
+  /// this; of a vehicle that began in the air, above z = 0.
+  const Vec3& home_world_m() const { return home_world_m_; }
   const UploadedMission& mission() const { return mission_; }
   /// Steps done since the last call.
   std::vector<std::uint16_t> take_reached() { return std::exchange(mission_.reached, {}); }
@@ -102,6 +103,7 @@ class Px4 {
   void lead();
   void say(int severity, std::string text);
   Ack reject(std::string text);
+  void set_home();
   void disarm();
   void update_mode();
   void enter(NavState mode);
@@ -122,13 +124,13 @@ class Px4 {
   bool is_armed_ = false;
   bool has_flown_ = false;  // since arming
   std::int64_t landed_ticks_ = 0;
-  Eigen::Vector2d home_world_m_ = Eigen::Vector2d::Zero();
+  Vec3 home_world_m_;
 
   Setpoint offboard_setpoint_;
   bool has_warned_of_setpoint_ = false;  // the last one was invalid
   std::optional<std::int64_t> heartbeat_tick_;
 
-  double takeoff_altitude_m_ = 0.0;
+  double takeoff_altitude_m_ = 0.0;  // above home
   AutoFlight auto_;
   UploadedMission mission_;
   Takeoff takeoff_;

@@ -94,7 +94,8 @@ Vec3 world_of_place(double lat_deg, double lon_deg, double alt_m) {
           deg_to_rad(lat_deg - kOriginLatitude_deg) * kEarthRadius_m, alt_m};
 }
 
-std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& message) {
+std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& message,
+                                            double home_z_m) {
   const unsigned mask = message.type_mask;
   if (!is_global(message.coordinate_frame)) {
     return Refusal{fmt::format("setpoint frame {} unsupported", message.coordinate_frame)};
@@ -102,7 +103,8 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& me
   if ((mask & kForce) != 0) return Refusal{"setpoint of force not supported"};
   Setpoint setpoint;
   const Vec3 p_world_m =
-      world_of_place(1e-7 * message.lat_deg_e7, 1e-7 * message.lon_deg_e7, message.alt_m);
+      world_of_place(1e-7 * message.lat_deg_e7, 1e-7 * message.lon_deg_e7,
+                     world_z_of(message.coordinate_frame, message.alt_m, home_z_m));
   const Vec3 ignored = unless_ignored({0.0F, 0.0F, 0.0F}, mask, kIgnoreX);
   setpoint.p_world_m = p_world_m + swap_enu_ned(ignored);  // NaN where it is ignored
   setpoint.v_world_m_s = swap_enu_ned(unless_ignored(message.v_m_s, mask, kIgnoreVx));

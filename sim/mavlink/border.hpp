@@ -49,9 +49,9 @@ struct Refusal {
 std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& message,
                                             double yaw_world_rad,
                                             const Vec3& origin_world_m = Vec3::Zero());
-/// The same with a place on the globe (frames 0, 3, 5, 6; heights are all above the ground's z = 0,
-/// which is sea level and home).
-std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& message);
+/// The same with a place on the globe (frames 0, 3, 5, 6).
+std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& message,
+                                            double home_z_m);
 
 /// Each axis at most. A greater number is garbage, and would wind up the controller's integrals.
 constexpr double kPositionMax_m = 1e6;
@@ -60,6 +60,11 @@ inline bool is_in_bounds(const Vec3& p_m) { return !(p_m.array().abs() > kPositi
 /// MAV_FRAME: on the globe above the sea or above home, in floats or integers.
 constexpr bool is_global(std::uint8_t frame) {
   return frame == 0 || frame == 3 || frame == 5 || frame == 6;
+}
+constexpr bool is_above_home(std::uint8_t frame) { return frame == 3 || frame == 6; }
+/// World z of an altitude in that frame: the sea is at z = 0.
+constexpr double world_z_of(std::uint8_t frame, double alt_m, double home_z_m) {
+  return is_above_home(frame) ? alt_m + home_z_m : alt_m;
 }
 
 }  // namespace gnbv::mavlink

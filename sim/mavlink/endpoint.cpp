@@ -45,6 +45,7 @@ struct Endpoint::Handler {
   double now_s;
   Quadrotor& vehicle;
 
+  double home_z_m() const { return vehicle.px4().home_world_m().z(); }
   void reply(const auto& message) const { endpoint.send(packed(message)); }
   /// Short enough for one STATUSTEXT.
   void tell(int severity, const std::string& text) const {
@@ -66,7 +67,8 @@ struct Endpoint::Handler {
                          place ? reposition({p[0], p[1], p[3]}, *place) : Ack::denied);
     }
     const float none = std::nanf("");
-    obey({asked.command, {p[0], p[1], p[2], p[3], none, none, asked.z}});
+    const auto z_m = static_cast<float>(world_z_of(asked.frame, asked.z, home_z_m()));
+    obey({asked.command, {p[0], p[1], p[2], p[3], none, none, z_m}});
   }
 
   void operator()(const SetMode& asked) const {
@@ -82,7 +84,8 @@ struct Endpoint::Handler {
       return value == kNone ? kNotControlled : unit * value;
     };
     if (is_global(asked.frame)) {
-      return world_of_place(number(asked.x, 1e-7), number(asked.y, 1e-7), asked.z);
+      return world_of_place(number(asked.x, 1e-7), number(asked.y, 1e-7),
+                            world_z_of(asked.frame, asked.z, home_z_m()));
     }
     if (asked.frame != 1) return std::nullopt;
     return world_of_local({number(asked.x, 1e-4), number(asked.y, 1e-4), asked.z},
@@ -142,7 +145,9 @@ struct Endpoint::Handler {
                     endpoint.aboard_.origin_world_m));
   }
 
-  void operator()(const SetPositionTargetGlobalInt& asked) const { fly(setpoint_of(asked)); }
+  void operator()(const SetPositionTargetGlobalInt& asked) const {
+    fly(setpoint_of(asked, home_z_m()));
+  }
 
   void fly(const std::variant<Setpoint, Refusal>& read) const {
     if (const auto* const refusal = std::get_if<Refusal>(&read)) {

@@ -66,7 +66,8 @@ std::variant<MissionStep, MissionResult> step_at_place(const MissionItemInt& ite
   MissionStep step{.kind = item.command == kTakeoff ? Kind::takeoff
                            : item.command == kLand  ? Kind::land
                                                     : Kind::waypoint,
-                   .p_world_m = std::get<Vec3>(place)};
+                   .p_world_m = std::get<Vec3>(place),
+                   .is_above_home = is_above_home(item.frame)};
   if (item.command == kLand) step.acceptance_m = 0.5;
   if (std::isinf(item.param[3])) return invalid(4);
   step.yaw_rad = swap_yaw_enu_ned(deg_to_rad(static_cast<double>(item.param[3])));

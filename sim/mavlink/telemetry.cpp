@@ -147,7 +147,8 @@ GlobalPositionInt global_position(const VehicleReport& report) {
   return {
       .time_boot_ms = report.time_boot_ms,
       .place = place,
-      .relative_alt_mm = place.alt_mm,
+      .relative_alt_mm = place.alt_mm - static_cast<std::int32_t>(
+                                            std::lround(1e3 * report.px4->home_world_m().z())),
       .v_ned_cm_s = {centimetres_per_second(v_ned_m_s.x()), centimetres_per_second(v_ned_m_s.y()),
                      centimetres_per_second(v_ned_m_s.z())},
       .heading_cdeg = centidegrees(heading_deg(report))};
@@ -184,10 +185,8 @@ VfrHud vfr_hud(const VehicleReport& report) {
           .throttle_percent = static_cast<std::uint16_t>(std::lround(100.0 * throttle))};
 }
 
-/// Home on the ground.
 HomePosition home_position(const VehicleReport& report) {
-  const Eigen::Vector2d& home_world_m = report.px4->home_world_m();
-  const Vec3 p_world_m(home_world_m.x(), home_world_m.y(), 0.0);
+  const Vec3& p_world_m = report.px4->home_world_m();
   return {.place = place_of(p_world_m),
           .p_ned_m = as_floats(local_of_world(p_world_m, report.origin_world_m))};
 }

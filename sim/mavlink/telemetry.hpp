@@ -17,7 +17,8 @@ namespace gnbv::mavlink {
 struct VehicleReport {
   VehicleState estimate = {};
   std::uint32_t time_boot_ms = 0;
-  // only of Heartbeat, ExtendedSysState, SysStatus, VfrHud, HomePosition and MissionCurrent
+  // only of Heartbeat, ExtendedSysState, SysStatus, GlobalPositionInt, VfrHud, HomePosition and
+  // MissionCurrent
   const Px4* px4 = nullptr;
   double energy_wh = 0.0;   // used
   double battery_wh = 0.0;  // as PowerParameters has it

@@ -215,6 +215,53 @@ TEST(MavlinkMission, PausesInHoldAndGoesOnFromTheItemThatIsCurrent) {
   EXPECT_EQ(session.vehicle().px4().nav_state(), NavState::hold) << "and then it holds";
 }
 
+World level_ground(float z_m) {
+  World world{.structure = {}, .has_ground = false};
+  world.terrain.vertices_m = {{-50, -50, z_m}, {50, -50, z_m}, {50, 50, z_m}, {-50, 50, z_m}};
+  world.terrain.faces = {{0, 1, 2}, {0, 2, 3}};
+  return world;
+}
+
+TEST(MavlinkMission, HeightsAboveHomeCountFromTheGroundThereAndThoseAboveTheSeaDoNot) {
+  constexpr double kGround_m = 3.5;
+  Session session({}, std::nullopt, {}, level_ground(kGround_m));
+  const auto is_at = [&](double z_m, double after_s = 15) {
+    session.step_for(static_cast<int>(after_s));
+    EXPECT_NEAR(session.vehicle().state().T_world_body.translation().z(), z_m, 0.15);
+    EXPECT_NEAR(session.last<GlobalPositionInt>().relative_alt_mm, 1e3 * (z_m - kGround_m), 150);
+  };
+  const auto go = [&](std::uint8_t frame, float z_m) {
+    const GlobalPlace at = place_of(Vec3(8, 0, 0));
+    session.send(CommandInt{.param = {-1, 1, 0, std::nanf("")},
+                            .x = at.lat_deg_e7,
+                            .y = at.lon_deg_e7,
+                            .z = z_m,
+                            .command = 192,
+                            .target_system = 1,
+                            .target_component = 1,
+                            .frame = frame});
+  };
+  session.send(ParamSet{6.0F, 1, 1, id_of("RTL_RETURN_ALT"), 9});
+  session.command(kArmDisarm, 1);
+  session.send(SetMode{.custom_mode = custom_mode_of(NavState::takeoff), .target_system = 1});
+  is_at(kGround_m + 2.5);
+  EXPECT_EQ(session.last<HomePosition>().place.alt_mm, 3500);
+  go(6, 4.0F);
+  is_at(kGround_m + 4.0);
+  go(0, 5.0F);
+  is_at(5.0);
+  MissionItemInt above_sea = item_at(kWaypoint, {8, 0, 8.5});
+  above_sea.frame = 5;
+  ASSERT_EQ(upload(session, {item_at(kWaypoint, {16, 0, 3}, 10), above_sea}), kAccepted);
+  ASSERT_EQ(session.result_of(kMissionStart, 0), 0);
+  is_at(kGround_m + 3.0, 12);
+  is_at(8.5, 20);
+  session.command(kReturnToLaunch);
+  is_at(kGround_m + 6.0, 5);
+  session.step_for(40);
+  EXPECT_FALSE(session.vehicle().px4().is_armed());
+}
+
 TEST(MavlinkMission, WithoutOneMissionModeDoesNotArm) {
   Session session;
   session.send(SetMode{.custom_mode = custom_mode_of(NavState::mission), .target_system = 1});

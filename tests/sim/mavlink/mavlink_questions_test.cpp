@@ -285,7 +285,8 @@ TEST(MavlinkQuestions, SetpointsOfAnotherKindAreRefusedByNameAndIntegerCommandsO
 TEST(MavlinkQuestions, PlacesOnTheGlobeAreAsFarApartAsInTheWorld) {
   VehicleState state;
   state.T_world_body.translation() = Vec3(30.0, 40.0, 5.0);
-  const auto place = said<GlobalPositionInt>({.estimate = state});
+  Session session;
+  const auto place = said<GlobalPositionInt>({.estimate = state, .px4 = &session.vehicle().px4()});
   const auto origin = said<GpsGlobalOrigin>({});
   const double to_rad = 1e-7 * kPi / 180.0;
   const double lat_a = origin.place.lat_deg_e7 * to_rad;

@@ -34,12 +34,13 @@ Message said(const VehicleReport& report) {
   return message_of<Message>(said_of(Message::kInfo.id, report).value().payload);
 }
 
-/// A client and the vehicle on open ground, in step: wall time is simulation time.
+/// A client and the vehicle on the ground of a world, open if none is given, in step: wall time is
+/// simulation time.
 class Session {
  public:
   explicit Session(const Aboard& aboard = {}, std::optional<Address> partner = std::nullopt,
-                   const ViewPose& start = {})
-      : vehicle_({}, World{}, start, 1, Px4::Start::on_ground),
+                   const ViewPose& start = {}, const World& world = {})
+      : vehicle_({}, world, start, 1, Px4::Start::on_ground),
         aboard_(aboard),
         endpoint_(aboard_, partner) {}
 
