@@ -77,6 +77,7 @@ Value value_of(const YamlEntry& entry) {
   const YamlNode& held = data != nullptr ? *data : node;
   value.text = held.text;
   if (held.kind == YamlNode::Kind::scalar) take(held.text, value);
+  if (held.kind == YamlNode::Kind::map) value.wrong = "a map";
   for (const YamlNode& item : held.items) {
     take(item.kind == YamlNode::Kind::scalar ? item.text : "a list", value);
   }
@@ -89,6 +90,9 @@ Calibration of_yaml(const std::string& file, std::string text, const std::string
   if (text.starts_with("%YAML")) text.erase(0, text.find('\n'));
   const std::string tag = "!!opencv-matrix";
   for (auto at = text.find(tag); at != text.npos; at = text.find(tag)) text.erase(at, tag.size());
+  // ROS ends each message that it prints with the line that begins the next
+  const auto begin = std::min(text.find_first_not_of("\xef\xbb\xbf \r\n"), text.size());
+  text.resize(std::min(text.find("\n---", begin + 1), text.size()));
   ValidationErrors errors;
   const auto root = parse_document(text, {file, 1, 0}, errors);
   errors.throw_if_any();
@@ -133,7 +137,7 @@ void set_pinhole(double fx, double fy, double cx, double cy, double skew, Camera
 
 void set_matrix(const Calibration& from, CameraConfig& camera) {
   const std::vector<double> k = from.numbers(
-      {"camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMatrix", "K", "M1", "M"}, {9});
+      {"camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMatrix", "K", "k", "M1", "M"}, {9});
   set_pinhole(k[0], k[4], k[2], k[5], k[1], camera);
 }
 
@@ -182,17 +186,42 @@ void set_kalibr(const Calibration& from, CameraConfig& camera) {
                  from.numbers({"distortion_coeffs"}, {4}), camera);
 }
 
+using Names = std::initializer_list<const char*>;
+constexpr Names kCoefficientNames = {"distortion_coefficients",
+                                     "Distortion_Coefficients",
+                                     "distCoeffs",
+                                     "DistCoeffs",
+                                     "D",
+                                     "d",
+                                     "D1",
+                                     "dist_coeffs"};
+
+/// As many as `counts` says; a rectified camera has none.
+void set_brown_conrady(const Calibration& from, std::initializer_list<std::size_t> counts,
+                       CameraConfig& camera) {
+  std::vector<double> listed = from.numbers(kCoefficientNames, counts);
+  for (std::size_t i = kCoefficients.size(); i < listed.size(); ++i) {
+    if (listed[i] == 0.0) continue;
+    from.fail(from.find(kCoefficientNames), *kCoefficientNames.begin(),
+              "thin prisms and tilted sensors (the ninth coefficient and on) are not read");
+  }
+  listed.resize(std::min(listed.size(), kCoefficients.size()));
+  set_distortion(Distortion::brown_conrady, listed, camera);
+}
+
+/// A file of camera_calibration's, or the message that `ros2 topic echo` prints.
 void set_ros(const Calibration& from, const Value& kind, CameraConfig& camera) {
   set_matrix(from, camera);
-  set_size(from, {"image_width"}, 0, camera.width_px);
-  set_size(from, {"image_height"}, 0, camera.height_px);
-  const std::initializer_list<const char*> key = {"distortion_coefficients", "D"};
+  set_size(from, {"image_width", "width"}, 0, camera.width_px);
+  set_size(from, {"image_height", "height"}, 0, camera.height_px);
   if (kind.text == "equidistant" || kind.text == "fisheye") {
-    set_distortion(Distortion::kannala_brandt, from.numbers(key, {4}), camera);
+    set_distortion(Distortion::kannala_brandt, from.numbers(kCoefficientNames, {4}), camera);
   } else if (kind.text == "plumb_bob") {
-    set_distortion(Distortion::brown_conrady, from.numbers(key, {4, 5}), camera);
+    set_brown_conrady(from, {0, 4, 5}, camera);
   } else if (kind.text == "rational_polynomial") {
-    set_distortion(Distortion::brown_conrady, from.numbers(key, {8}), camera);
+    set_brown_conrady(from, {0, 8, 12, 14}, camera);
+  } else if (kind.text.empty()) {
+    set_brown_conrady(from, {0, 4, 5, 8, 12, 14}, camera);
   } else {
     from.fail(&kind, "distortion_model",
               fmt::format("'{}' is not read; plumb_bob, rational_polynomial and equidistant are",
@@ -207,26 +236,11 @@ void set_opencv(const Calibration& from, CameraConfig& camera) {
     set_size(from, {"image_width", "image_Width"}, 0, camera.width_px);
     set_size(from, {"image_height", "image_Height"}, 0, camera.height_px);
   }
-  const std::initializer_list<const char*> key = {"distortion_coefficients",
-                                                  "Distortion_Coefficients",
-                                                  "distCoeffs",
-                                                  "DistCoeffs",
-                                                  "D",
-                                                  "D1",
-                                                  "dist_coeffs"};
-  std::vector<double> listed = from.numbers(key, {4, 5, 8, 12, 14});
   const Value* fisheye = from.find({"fisheye_model", "fisheye"});
   if (fisheye != nullptr && (fisheye->text == "1" || fisheye->text == "true")) {
-    if (listed.size() == 4) return set_distortion(Distortion::kannala_brandt, listed, camera);
-    from.fail(from.find(key), *key.begin(), "a fisheye has four coefficients");
+    return set_distortion(Distortion::kannala_brandt, from.numbers(kCoefficientNames, {4}), camera);
   }
-  for (std::size_t i = kCoefficients.size(); i < listed.size(); ++i) {
-    if (listed[i] == 0.0) continue;
-    from.fail(from.find(key), *key.begin(),
-              "thin prisms and tilted sensors (the ninth coefficient and on) are not read");
-  }
-  listed.resize(std::min(listed.size(), kCoefficients.size()));
-  set_distortion(Distortion::brown_conrady, listed, camera);
+  set_brown_conrady(from, {4, 5, 8, 12, 14}, camera);
 }
 
 /// Refuses a number that the scenario's key would not take.
@@ -263,7 +277,7 @@ CameraConfig calibrated(const std::string& file, CameraConfig camera) {
   const Value* kind = from.find({"distortion_model"});
   if (from.find({"camera_model"}) != nullptr) {
     set_kalibr(from, camera);
-  } else if (kind != nullptr && !kind->text.empty()) {
+  } else if (kind != nullptr) {
     set_ros(from, *kind, camera);
   } else {
     set_opencv(from, camera);

@@ -148,15 +148,40 @@ TEST(Calibration, RossCameraInfo) {
             (std::vector{0.1, 0.2, 0.001, -0.002, 0.3, 0.4, 0.5, 0.6}));
 }
 
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Calibration, RossMessageAsItPrintsItAndARectifiedCamera) {
+  const std::string message =
+      "header:\n  frame_id: ''\nheight: 720\nwidth: 1280\ndistortion_model: plumb_bob\n"
+      "d:\n- 0.1\n- 0.2\n- 0.001\n- -0.002\n- 0.3\n"
+      "k:\n- 700.1\n- 0.0\n- 640.2\n- 0.0\n- 701.3\n- 360.4\n- 0.0\n- 0.0\n- 1.0\n";
+  const std::string of_ros1 = with(with(message, "\nd:", "\nD:"), "\nk:", "\nK:");
+  for (const std::string& text : {message, message + "---\n" + message, of_ros1 + "---\n"}) {
+    const CameraConfig c = read(text).camera;
+    EXPECT_EQ(c.height_px, 720);
+    expect_pinhole(c, {700.1, 701.3, 640.2 + 0.5, 360.4 + 0.5, 0.0});
+    EXPECT_EQ(coefficients_of(c.distortion),
+              (std::vector{0.1, 0.2, 0.001, -0.002, 0.3, 0.0, 0.0, 0.0}));
+  }
+  const std::string none = with(kRos, "[0.1, 0.2, 0.001, -0.002, 0.3, 0.4, 0.5, 0.6]", "[]");
+  for (const char* model : {"rational_polynomial", "plumb_bob", "''"}) {
+    const Read rectified = read(with(none, "rational_polynomial", model));
+    EXPECT_EQ(rectified.complaint, "");
+    EXPECT_EQ(rectified.camera.fx_px, 700.1);
+    EXPECT_EQ(rectified.camera.distortion.model, Distortion::none);
+  }
+  EXPECT_EQ(read(with(kRos, "0.6]", "0.6, 0, 0, 0, 0, 0, 0]")).camera.distortion.k6, 0.6);
+  EXPECT_THAT(read(with(kRos, "0.6]", "0.6, 0, 0, 0, 0, 0.1, 0]")).complaint,
+              HasSubstr("calib:9: distortion_coefficients: thin prisms and tilted sensors"));
+}
+
 TEST(Calibration, KeysBesideItWin) {
   const CameraConfig c = read(kRos, "", ", fx_px: 650, distortion: {k1: 0.05}").camera;
   EXPECT_EQ(c.fx_px, 650.0);
   EXPECT_EQ(c.distortion.k1, 0.05);
   EXPECT_EQ(c.distortion.k2, 0.2);
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
 }
 
 TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
