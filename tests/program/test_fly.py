@@ -219,6 +219,20 @@ def test_touching_the_structure_is_a_failure_that_says_where(flying, client):
     assert end.code == 1 and 'hit the structure at [' in end.err, end
 
 
+def test_frames_that_cannot_be_written_and_a_dead_ffmpeg_end_no_flight(gnbv, flying, tmp_path):
+    (tmp_path / 'bin').mkdir()
+    dies = tmp_path / 'bin' / 'ffmpeg'
+    dies.write_text('#!/bin/sh\nexit 3\n')
+    dies.chmod(0o755)
+    gnbv.environment['PATH'] = f'{dies.parent}:{gnbv.environment["PATH"]}'
+    process = flying(f'{PORT} --duration 4 --json --frames frames --video rtp://127.0.0.1:5600')
+    newest(process, tmp_path)
+    shutil.rmtree(tmp_path / 'frames')
+    end = end_of(process)
+    assert end.code == 0 and end.json['end'] == 'duration', end
+    assert [end.err.count(each) for each in ('goes on without video', 'without frames')] == [1, 1]
+
+
 # commands in MAVLink 1 that are too long, and positions in MAVLink 2 that are as long as a frame
 # can be, which a newer sender may mean so: a CRC of 265 bytes at every tenth
 @pytest.mark.parametrize('longest', [b'\xfe\xff\x4c', b'\xfd\xff\0\0\0\0\0\x1e\0\0'])

@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -90,7 +91,10 @@ std::string npy_of(const CameraModel& camera, std::uint64_t sequence, double tim
 
 CameraStream::CameraStream(const RayScene& scene, std::vector<CameraModel> cameras,
                            CameraStreamOptions options)
-    : scene_(scene), cameras_(std::move(cameras)), options_(std::move(options)) {
+    : scene_(scene),
+      cameras_(std::move(cameras)),
+      options_(std::move(options)),
+      keeps_files_(!options_.folder.empty()) {
   if (cameras_.empty()) throw BadInput("cameras: there is none to show frames of");
   std::set<std::string> names;
   for (const CameraModel& camera : cameras_) {
@@ -98,7 +102,7 @@ CameraStream::CameraStream(const RayScene& scene, std::vector<CameraModel> camer
     throw BadInput(fmt::format("cameras: two are named '{}', and so would their frames be",
                                camera.config.name));
   }
-  if (!options_.folder.empty()) make_folder(options_.folder);
+  if (keeps_files_) make_folder(options_.folder);
   if (!options_.video_url.empty()) {
     video_ = std::make_unique<ChildProcess>(
         ffmpeg_command(cameras_.front().config, options_.rate_hz * options_.speed,
@@ -167,16 +171,25 @@ void CameraStream::take(const Moment& moment) {
     const CameraModel& camera = cameras_[i];
     const int index = static_cast<int>(i);
     const bool is_shown = i == 0 && video_;
-    if (options_.folder.empty() && !is_shown) continue;
+    if (!keeps_files_ && !is_shown) continue;
     const ColourFrame colour = capture_colour(scene, camera, index, moment.T_world_body, 1);
     if (is_shown) {
       video_->write({reinterpret_cast<const char*>(colour.rgb.data()), 3 * colour.rgb.size()});
-      if (!video_->is_open()) throw BadInput("--video: ffmpeg gave up");
+      if (!video_->is_open()) {
+        say("--video: ffmpeg gave up ({}); the flight goes on without video", video_->end().text());
+        video_.reset();
+      }
     }
-    if (options_.folder.empty()) continue;
+    if (!keeps_files_) continue;
     const DepthFrame depth = capture_depth(scene, camera, index, moment.T_world_body, key, 1);
-    write_file_atomically(file_of(camera), npy_of(camera, sequence_, moment.time_s, depth, colour),
-                          Lasting::the_process);
+    try {
+      write_file_atomically(file_of(camera),
+                            npy_of(camera, sequence_, moment.time_s, depth, colour),
+                            Lasting::the_process);
+    } catch (const std::exception& error) {
+      keeps_files_ = false;
+      say("--frames: {}; the flight goes on without frames", error.what());
+    }
   }
 }
 

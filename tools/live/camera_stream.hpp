@@ -48,8 +48,8 @@ class CameraStream {
   CameraStream(const CameraStream&) = delete;
   CameraStream& operator=(const CameraStream&) = delete;
 
-  /// Tells where the vehicle truly is, and when, as often as that is known. Throws what taking or
-  /// writing a frame threw.
+  /// Tells where the vehicle truly is, and when, as often as that is known. Throws what taking a
+  /// frame threw. A folder that takes none and an ffmpeg that ends are said once, and done without.
   void offer(const Isometry& T_world_body, double time_s);
 
  private:
@@ -65,6 +65,7 @@ class CameraStream {
   const std::vector<CameraModel> cameras_;
   const CameraStreamOptions options_;
   std::unique_ptr<ChildProcess> video_;
+  bool keeps_files_;
   std::uint64_t sequence_ = 0;
 
   std::mutex mutex_;
