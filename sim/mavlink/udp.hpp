@@ -22,6 +22,7 @@ bool is_loopback(const Address& address);
 struct Meeting {
   Address address;
   bool speaks_first = false;
+  bool operator==(const Meeting&) const = default;
 };
 
 /// "udpout://HOST:PORT" is spoken to, "udp://" and "udpin://" are listened at. HOST may be left out

@@ -96,7 +96,7 @@ def test_is_hit_by_what_moves_when_it_comes(gnbv):
     cube = ('obstacles=[{box_m: {min: [-3, -3.3, 0], max: [-2, -2.3, 1]}, '
             'motion: {waypoints: [{offset_m: [6, 0, 0]}], speed_m_s: 1}}]')
     end = gnbv('fly', *PORT.split(), '--set', cube, '--set', 'start.jitter_m=[0, 0, 0]',
-               '--speed', 20, '--duration', 5).check({1}, ['the vehicle hit'])
+               '--speed', 20, '--duration', 5).check({1}, ['the vehicle hit an obstacle at ['])
     hull_m = 0.384  # of the Iris; the face is at x = t - 2
     assert abs(float(re.search(r'after ([\d.]+) s', end.err)[1]) - (2 - hull_m)) < 0.05
 
@@ -259,7 +259,8 @@ def test_a_flood_does_not_stop_time(flying, client, longest):
 @pytest.mark.parametrize('words', [
     'smoke --mavlink udp://127.0.0.1:{taken}', 'smoke --mavlink tcp://127.0.0.1:14540',
     'smoke --mavlink udp://127.0.0.1', 'smoke --mavlink udpout://127.0.0.1:0',
-    'smoke --mavlink udpout://0.0.0.0:14540', 'smoke --mavlink udp://8.8.8.8:14540',
+    'smoke --mavlink udpout://0.0.0.0:14540',
+    'smoke --mavlink udpout://127.0.0.1:14540 --mavlink udpout://localhost:14540', 'smoke --mavlink udp://8.8.8.8:14540',
     'smoke --mavlink udp://no-such-host.invalid:14540', f'{PORT} --speed 0', f'{PORT} --duration 0',
     f'{PORT} --frames /proc/none', f'{PORT} --video udp://127.0.0.1:5600',
     f'{PORT} --video rtp://127.0.0.1:0', f'{PORT} --frames f --frames-hz 0',

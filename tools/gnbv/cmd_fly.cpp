@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -179,11 +180,29 @@ std::unique_ptr<CameraStream> stream_of(const FlyOptions& options, const Scenari
   return std::make_unique<CameraStream>(scene, std::move(cameras), std::move(stream));
 }
 
+[[noreturn]] void fail_of_collision(const Scenario& scenario, const RayScene& scene,
+                                    const Quadrotor& vehicle) {
+  const Vec3 p_world_m = vehicle.state().T_world_body.translation();
+  const AirframeParameters& airframe = scenario.vehicle.airframe;
+  const double reach_m = std::hypot(airframe.hull_radius_m, 0.5 * airframe.hull_height_m) + 0.05;
+  const bool is_structure = !std::isinf(scene.distance_to_structure_m(p_world_m, reach_m));
+  const double time_s = static_cast<double>(vehicle.tick()) * kTick_s;
+  throw CommandFailed(fmt::format("the vehicle hit {} at [{:.2f}, {:.2f}, {:.2f}] m after {:.2f} s",
+                                  is_structure ? "the structure" : "an obstacle", p_world_m.x(),
+                                  p_world_m.y(), p_world_m.z(), time_s));
+}
+
 void fly(const FlyOptions& options) {
   const Scenario scenario = resolve_scenario(options.scenario);
   need_ground_and_rotors(scenario);
   std::vector<mavlink::Meeting> meetings;
-  for (const std::string& url : options.urls) meetings.push_back(mavlink::resolve_meeting(url));
+  for (const std::string& url : options.urls) {
+    const mavlink::Meeting meeting = mavlink::resolve_meeting(url);
+    if (meeting.address.port != 0 && std::ranges::find(meetings, meeting) != meetings.end()) {
+      throw BadInput(fmt::format("--mavlink: value '{}': that client is served already", url));
+    }
+    meetings.push_back(meeting);
+  }
   std::vector<std::string> warnings;
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
@@ -225,12 +244,7 @@ void fly(const FlyOptions& options) {
                                     .on_turn = show});
   const nlohmann::ordered_json summary = summary_of(scenario, vehicle, stations, result);
   fmt::print("{}", options.json ? summary.dump(2) + "\n" : text_of(summary));
-  if (result.end == ServeEnd::collision) {
-    const Vec3 p_world_m = vehicle.state().T_world_body.translation();
-    throw CommandFailed(fmt::format(
-        "the vehicle hit the structure at [{:.2f}, {:.2f}, {:.2f}] m after {:.2f} s", p_world_m.x(),
-        p_world_m.y(), p_world_m.z(), static_cast<double>(vehicle.tick()) * kTick_s));
-  }
+  if (result.end == ServeEnd::collision) fail_of_collision(scenario, scene, vehicle);
 }
 
 }  // namespace
