@@ -329,7 +329,8 @@ void Px4::run_position_loop() {
   setpoint_ = offboard_setpoint_;
   if (is_auto(nav_state_)) {
     if (takeoff_.phase < TakeoffPhase::ramp) enter(nav_state_);  // the trajectory waits as well
-    if (nav_state_ == NavState::mission) lead();
+    const bool lands = mission_.phase == UploadedMission::Phase::lands;
+    if (nav_state_ == NavState::mission && (is_armed_ || lands)) lead();
     setpoint_ = step_auto(auto_, commander, estimate_, kPositionLoop_s);
   }
 

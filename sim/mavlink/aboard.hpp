@@ -27,6 +27,7 @@ struct Aboard {
   Vec3 origin_world_m = Vec3::Zero();        // of local NED
   std::vector<MissionItemInt> mission = {};  // as it was uploaded
   std::map<std::size_t, double> kept = {};   // values of inert parameters, by their number
+  std::vector<std::size_t> were_set = {};    // parameters, since news were taken
   bool was_armed = false;                    // when news were taken last
   std::optional<VideoStream> video = {};     // with it there is a camera, component kCamera
 };

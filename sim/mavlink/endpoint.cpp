@@ -190,10 +190,11 @@ struct Endpoint::Handler {
     CommanderParameters commander = vehicle.px4().commander();
     if (set_parameter(endpoint.aboard_, commander, *number, asked)) {
       vehicle.px4().set_commander(commander);
+      endpoint.aboard_.were_set.push_back(*number);  // news for all
     } else {
       tell(kSeverityCritical, fmt::format("parameter {} not set", name));
+      reply(value_of(*number));
     }
-    reply(value_of(*number));
   }
 
   template <typename Message>
@@ -325,7 +326,7 @@ void Endpoint::send(Frame frame) {
 
 News take_news(Aboard& aboard, Quadrotor& vehicle) {
   Px4& px4 = vehicle.px4();
-  News news{px4.take_messages(), px4.take_reached()};
+  News news{px4.take_messages(), px4.take_reached(), std::exchange(aboard.were_set, {})};
   if (px4.is_armed() && !aboard.was_armed) {
     const Vec3& origin_m = aboard.origin_world_m;
     news.texts.push_back({.severity = kSeverityInfo,
@@ -342,6 +343,9 @@ std::vector<std::vector<std::uint8_t>> Endpoint::take_outgoing(double now_s,
   if (!client().has_value()) return {};
   for (const gnbv::StatusText& text : news.texts) say(text);
   for (const std::uint16_t item : news.reached) send(packed(MissionItemReached{item}));
+  for (const std::size_t number : news.were_set) {
+    send(packed(value_of(aboard_, vehicle.px4().commander(), number)));
+  }
   for (Frame& frame : missions_.remind(now_s)) send(std::move(frame));
   const VehicleReport report = report_of(vehicle);
   for (const std::uint32_t id : streams_.take_due(now_s)) {

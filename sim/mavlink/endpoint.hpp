@@ -35,6 +35,7 @@ constexpr std::size_t kOutgoingMax = 256;
 struct News {
   std::vector<gnbv::StatusText> texts;
   std::vector<std::uint16_t> reached;  // items of the mission
+  std::vector<std::size_t> were_set;   // parameters, by whichever client
 };
 /// What there is since the last call; with the news of arming comes where local NED counts from.
 News take_news(Aboard& aboard, Quadrotor& vehicle);

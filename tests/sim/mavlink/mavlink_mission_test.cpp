@@ -268,6 +268,17 @@ TEST(MavlinkMission, WithoutOneMissionModeDoesNotArm) {
   session.listen();
   EXPECT_EQ(session.result_of(kArmDisarm, 1), 1) << "temporarily rejected";
   EXPECT_EQ(session.result_of(kMissionStart, 0), 2) << "denied";
+  session.step_for(2);
+  EXPECT_EQ(session.vehicle().px4().nav_state(), NavState::mission) << "and nothing is finished";
+}
+
+TEST(MavlinkMission, ItsOneStepThatReturnsHomeIsReachedOnce) {
+  Session session;
+  ASSERT_EQ(upload(session, {{.command = kReturnToLaunch, .frame = 2}}), kAccepted);
+  ASSERT_EQ(session.result_of(kMissionStart, 0), 0);
+  session.step_for(15);
+  EXPECT_FALSE(session.vehicle().px4().is_armed()) << "it never flew";
+  EXPECT_EQ(session.count<MissionItemReached>(), 1U);
 }
 
 }  // namespace
