@@ -241,7 +241,11 @@ def test_no_ctrl_c_kills_python_and_one_that_comes_late_is_pythons():
 
 @pytest.mark.parametrize(
     ("what", "body"),
-    [("planner", "while True: pass"), ("planner", "time.sleep(600)"), ("utility", "time.sleep(600)")],
+    [
+        ("planner", "while True: pass"),
+        ("planner", "time.sleep(600)"),
+        ("utility", "time.sleep(600)"),
+    ],
 )
 def test_a_second_ctrl_c_ends_what_the_users_own_code_does(what, body):
     """That code runs in this process (a planner) or in one of its own (a utility)."""

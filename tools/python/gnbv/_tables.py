@@ -76,8 +76,8 @@ def compare(
             planners, perhaps by names of your choice (a dict); the first is the baseline.
         presets: of the planner, as methods.
         variants: methods by name, each with the values it sets.
-        ceiling: also shares of the most that any planner could cover from allowed positions (a minute
-            where it is not known).
+        ceiling: also shares of the most that any planner could cover from allowed positions (a
+            minute where it is not known).
         options: seed (the first), set, mesh, jobs (missions at a time), threads, out (folder of
             the missions: what it holds is not flown again).
 
