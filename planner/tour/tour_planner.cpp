@@ -210,10 +210,9 @@ void solve_at_lower_costs(const Step& step) {
   } while (!solve_tour(step));
 }
 
-/// Where the vehicle sees no node of the lattice, the open voxels about it become nodes.
+/// Where no node can be reached: the open voxels about the vehicle become nodes.
 void add_nodes_at_hand(const Step& step) {
   TourState& state = step.state;
-  if (!state.roadmap.reachable().empty()) return;
   const OccupancyGrid& grid = step.belief.grid;
   const GridGeometry& voxels = grid.geometry();
   constexpr std::int32_t kSteps = 4;  // to each side, twice the radius
@@ -234,10 +233,13 @@ TourPlan replan(const Step& step, bool may_explore) {
   state.cells.follow_map(step.belief.grid);
   state.space.follow(step.belief.grid, step.stop);
   step.follow_roadmap();
-  add_nodes_at_hand(step);
   state.at = Roadmap::here();
   predict_gains(step);
   observe_nodes(step);
+  if (state.roadmap.reachable().empty()) {
+    add_nodes_at_hand(step);
+    observe_nodes(step);
+  }
   state.views_since_replan = 0;
   state.is_due = false;
   if (!solve_tour(step) && !(may_explore && explore(step))) solve_at_lower_costs(step);
