@@ -67,5 +67,5 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-numpy")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME gnbv-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "gnbv (= ${PROJECT_VERSION}), libeigen3-dev, libfmt-dev, \
-liboctomap-dev, libpng-dev, libssl-dev")
+libpng-dev, libssl-dev")
 include(CPack)

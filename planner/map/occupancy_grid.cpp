@@ -17,11 +17,6 @@ std::uint32_t word_units(double nat) {
   return static_cast<std::uint32_t>(std::llround(nat / kEntropyUnit_nat));
 }
 
-/// octomap::logodds (octomap_utils.h)
-float log_odds_of(double probability) {
-  return static_cast<float>(std::log(probability / (1.0 - probability)));
-}
-
 void need_between(const char* key, double value, double low, double high) {
   if (!(low < value && value < high)) {
     throw BadInput(fmt::format("{}: {} is not between {} and {}", key, value, low, high));
@@ -29,6 +24,10 @@ void need_between(const char* key, double value, double low, double high) {
 }
 
 }  // namespace
+
+float log_odds_of(double probability) {
+  return static_cast<float>(std::log(probability / (1.0 - probability)));
+}
 
 OccupancyGrid::OccupancyGrid(const OccupancyConfig& config, const Box3& bounds_m,
                              const Box3& object_bounds_m)

@@ -25,6 +25,9 @@ struct OccupancyConfig {
   NoReturn no_return = NoReturn::free;  // of depth frames
 };
 
+/// octomap::logodds (octomap_utils.h)
+float log_odds_of(double probability);
+
 /// The voxels one scan touches, each once, occupied before free (OctoMap's computeUpdate).
 struct ScanUpdate {
   std::vector<VoxelIndex> free;  // disjoint from occupied

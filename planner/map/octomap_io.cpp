@@ -1,14 +1,12 @@
 #include "planner/map/octomap_io.hpp"
 
 #include <fmt/format.h>
-#include <octomap/octomap.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -16,45 +14,94 @@
 namespace gnbv {
 namespace {
 
-constexpr int kOctomapKeyOffset = 32768;
-// voxels of the cubes that are pruned before the next layer of cubes is filled in: an octree takes
-// some 46 bytes a voxel, which all of a large map together would not have
-constexpr int kLayerVoxels = 16;
+constexpr std::int32_t kRootEdge = 65536;  // voxels: OctoMap's keys are 16 bits wide
+constexpr Key kRootKey = {-kRootEdge / 2, -kRootEdge / 2, -kRootEdge / 2};
 
-void fill(octomap::OcTree& tree, const OccupancyGrid& grid) {
-  const OccupancyConfig& config = grid.config();
-  tree.setProbHit(config.prob_hit);
-  tree.setProbMiss(config.prob_miss);
-  tree.setClampingThresMin(config.clamp_min);
-  tree.setClampingThresMax(config.clamp_max);
-  tree.setOccupancyThres(config.occupied_min);
-  const GridGeometry& geometry = grid.geometry();
-  const Key& size = geometry.size();
-  const VoxelIndex layer = size[0] * size[1];
-  for (VoxelIndex v = 0; v < geometry.voxel_count(); ++v) {
-    const auto octomap_key = [key = geometry.key_at(v)](int axis) {
-      return static_cast<octomap::key_type>(key[axis] + kOctomapKeyOffset);
-    };
-    if (v % layer == 0 && octomap_key(2) % kLayerVoxels == 0) tree.prune();
-    if (!grid.is_measured(v)) continue;
-    tree.setNodeValue(octomap::OcTreeKey(octomap_key(0), octomap_key(1), octomap_key(2)),
-                      grid.log_odds(v), true);
+Key child_at(const Key& first, std::size_t child, std::int32_t edge) {
+  Key at = first;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    at[axis] += static_cast<std::int32_t>(child >> axis & 1U) * edge;
   }
-  tree.updateInnerOccupancy();
-  tree.prune();
+  return at;
 }
 
-/// A file as OctoMap's readers want it. OctoMap's own writers print to stderr, and round the
-/// resolution to six digits.
-template <typename WriteData>
-void write_by_rename(const std::filesystem::path& path, std::string_view first_line,
-                     const octomap::OcTree& tree, const WriteData& write_data) {
-  std::ostringstream out;
-  out << first_line << "\n# written by gnbv\nid " << tree.getTreeType() << "\nsize " << tree.size()
-      << "\nres " << fmt::format("{}", tree.getResolution()) << "\ndata\n";
-  write_data(out);
-  write_file_atomically(path, std::move(out).str());
-}
+/// The measured voxels as OctoMap's pruned tree (OcTreeBaseImpl::prune), written from its leaves
+/// up: as a tree in memory they would take 46 bytes each. TreeReader says how a file looks.
+class TreeWriter {
+ public:
+  TreeWriter(const OccupancyGrid& grid, bool is_binary) : grid_(grid), is_binary_(is_binary) {
+    add_cube(kRootKey, kRootEdge);
+  }
+
+  std::size_t nodes = 0;
+  std::string data;
+
+ private:
+  struct Node {
+    bool exists = false;
+    bool is_leaf = false;
+    float value = 0.0F;  // the highest log-odds in it; in a binary tree 1 for occupied
+  };
+
+  Node add_cube(const Key& first, std::int32_t edge) {
+    const Key& low = grid_.geometry().min_key();
+    const Key& size = grid_.geometry().size();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (first[axis] + edge <= low[axis] || first[axis] >= low[axis] + size[axis]) return {};
+    }
+    if (edge > 1) return add_children(first, edge);
+    const VoxelIndex v = grid_.geometry().index_of(first);
+    if (!grid_.is_measured(v)) return {};
+    if (!is_binary_) return add_leaf(grid_.log_odds(v));
+    return add_leaf(grid_.state(v) == VoxelState::occupied ? 1.0F : 0.0F);
+  }
+
+  Node add_leaf(float value) {
+    ++nodes;
+    if (!is_binary_) put_node(data.size(), value, 0);
+    return {.exists = true, .is_leaf = true, .value = value};
+  }
+
+  Node add_children(const Key& first, std::int32_t edge) {
+    const std::size_t begin = data.size();
+    const std::size_t nodes_before = nodes++;
+    data.resize(begin + (is_binary_ ? 2 : 5));
+    Node node;
+    bool is_one = true;
+    unsigned exist = 0;
+    unsigned kinds = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Node child = add_cube(child_at(first, i, edge / 2), edge / 2);
+      is_one = is_one && child.is_leaf && (i == 0 || child.value == node.value);
+      if (!child.exists) continue;
+      node.value = node.exists ? std::max(node.value, child.value) : child.value;
+      node.exists = true;
+      exist |= 1U << i;
+      kinds |= (!child.is_leaf ? 3U : child.value > 0.0F ? 2U : 1U) << 2U * i;
+    }
+    if (is_one || !node.exists) {
+      data.resize(begin);
+      nodes = nodes_before;
+      return is_one ? add_leaf(node.value) : Node();
+    }
+    is_binary_ ? put(begin, static_cast<std::uint16_t>(kinds)) : put_node(begin, node.value, exist);
+    return node;
+  }
+
+  template <typename T>
+  void put(std::size_t at, T value) {
+    data.resize(std::max(data.size(), at + sizeof value));
+    std::memcpy(data.data() + at, &value, sizeof value);
+  }
+
+  void put_node(std::size_t at, float value, unsigned children) {
+    put(at, value);
+    put(at + sizeof value, static_cast<std::uint8_t>(children));
+  }
+
+  const OccupancyGrid& grid_;
+  const bool is_binary_;
+};
 
 /// A text head, then the tree. Of .ot, each node before its children: float32 log-odds, in a
 /// ColorOcTree a colour, and a byte whose bits say which of the eight children follow. Of .bt, two
@@ -75,10 +122,8 @@ class TreeReader {
     const auto [end, error] = std::from_chars(res.data(), res.data() + res.size(), read.voxel_m);
     if (error != std::errc{} || !(read.voxel_m > 0.0)) fail("states no resolution");
     at_ = data + 6;
-    constexpr std::int32_t kLowest = -kOctomapKeyOffset;
     if (at_ < bytes_.size()) {
-      const Key first = {kLowest, kLowest, kLowest};
-      is_binary ? read_bits(first, 2 * kOctomapKeyOffset) : read_node(first, 2 * kOctomapKeyOffset);
+      is_binary ? read_bits(kRootKey, kRootEdge) : read_node(kRootKey, kRootEdge);
     }
     if (at_ < bytes_.size()) fail("has more behind its end");
   }
@@ -96,14 +141,6 @@ class TreeReader {
     if (at >= data) fail(fmt::format("states no '{}'", key));
     const std::size_t first = at + key.size() + 2;
     return std::string_view(bytes_).substr(first, bytes_.find_first_of("\r\n", first) - first);
-  }
-
-  static Key child_at(const Key& first, std::size_t child, std::int32_t edge) {
-    Key at = first;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      at[axis] += static_cast<std::int32_t>(child >> axis & 1U) * edge;
-    }
-    return at;
   }
 
   void need(std::size_t bytes, std::int32_t edge) const {
@@ -136,7 +173,7 @@ class TreeReader {
         read_bits(at, edge / 2);
       } else if (kind != 0) {
         const double p = kind == 2 ? defaults.clamp_max : defaults.clamp_min;
-        read.leaves.push_back({at, edge / 2, octomap::logodds(p)});
+        read.leaves.push_back({at, edge / 2, log_odds_of(p)});
       }
     }
   }
@@ -150,21 +187,22 @@ class TreeReader {
 }  // namespace
 
 bool is_occupied(const OctomapLeaf& leaf, const OccupancyConfig& config) {
-  return leaf.log_odds >= octomap::logodds(config.occupied_min);
+  return leaf.log_odds >= log_odds_of(config.occupied_min);
 }
 
 OctomapLeaves read_octomap(const std::filesystem::path& path) { return TreeReader(path).read; }
 
 void write_octomap(const OccupancyGrid& grid, const std::filesystem::path& stem) {
-  octomap::OcTree tree(grid.geometry().resolution_m());
-  fill(tree, grid);
-  // appended, since replace_extension would cut a stem with a dot
-  write_by_rename(stem.string() + ".ot", "# Octomap OcTree file", tree,
-                  [&](std::ostream& out) { tree.writeData(out); });
-  tree.toMaxLikelihood();
-  tree.prune();
-  write_by_rename(stem.string() + ".bt", "# Octomap OcTree binary file", tree,
-                  [&](std::ostream& out) { tree.writeBinaryData(out); });
+  for (const bool is_binary : {false, true}) {
+    const TreeWriter tree(grid, is_binary);
+    // appended, since replace_extension would cut a stem with a dot
+    write_file_atomically(
+        stem.string() + (is_binary ? ".bt" : ".ot"),
+        fmt::format(
+            "# Octomap OcTree {}file\n# written by gnbv\nid OcTree\nsize {}\nres {}\ndata\n",
+            is_binary ? "binary " : "", tree.nodes, grid.geometry().resolution_m()) +
+            tree.data);
+  }
 }
 
 }  // namespace gnbv
