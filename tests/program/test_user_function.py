@@ -9,9 +9,18 @@ import pytest
 from program import Gnbv, hash_of, summary, until
 
 FEW = '--quiet --set planner.termination.max_iterations=5'
-PLAN = '''def plan(belief, history):
+PLAN = '''from __future__ import annotations
+import dataclasses
+
+
+@dataclasses.dataclass
+class Step:  # of which dataclasses asks where it is from
+    rows: int = 7
+
+
+def plan(belief, history):
     views = belief.valid(belief.sample())
-    return View(*views[len(history) * 7 % len(views)])
+    return View(*views[len(history) * Step().rows % len(views)])
 '''
 OTHER = '''def other(views):
     return views["path_m"]

@@ -2,6 +2,9 @@
 
 import contextlib
 import csv
+import multiprocessing
+import signal
+import time
 import types
 from concurrent.futures import ThreadPoolExecutor
 
@@ -273,19 +276,50 @@ def test_what_is_no_view_is_refused(answer):
         gnbv.run("smoke", planner=lambda belief, history: answer)
 
 
-def test_questions_that_no_map_can_answer_are_bad_input(short):
-    asked = []
+def asks_wrongly(belief, history):
+    """And what can be asked in other words; the arrays that it gets are its own."""
+    here, no_number = belief.current, [np.nan, np.inf, -1.0, "2", None, 10**400]
+    wrong = [(belief.sample, scale, "scale") for scale in no_number]
+    wrong += [(belief.find_path, here, end) for end in ((0, 0), "abc", (np.nan, 0, 0))]
+    wrong += [(belief.evaluate, [[0, 0, 1, 0], [1e9, 0, 0, 0]], "view 1, View(x=1000000000.0")]
+    for asked, first, second in wrong:
+        try:
+            asked(first, second) if asked == belief.find_path else asked(first)
+        except ValueError as bad:
+            assert type(bad).__name__ == "BadInput" and (
+                asked == belief.find_path or second in str(bad)
+            )
+        else:
+            raise AssertionError((asked, first, second))
+    assert len(belief.evaluate([[1e3, 0, -50, 0]])) == 1
+    for scale in (np.int64(2), np.float32(2.0), np.array(2.0)):
+        assert (belief.sample(scale) == belief.sample(2.0)).all()
+    assert len(belief.sample(True)) == len(belief.find_path(here, here)) + len(belief.sample())
+    for array in (*belief.density, belief.validate([here])[1], belief.find_path(here, here)):
+        array[...] = 0
+    return None
 
-    def asks(belief, history):
-        with pytest.raises(gnbv.BadInput, match=r"view 1, View\(x=1000000000.0"):
-            belief.evaluate([[0, 0, 1, 0], [1e9, 0, 0, 0]])
-        for scale in (np.nan, np.inf, -1.0):
-            with pytest.raises(gnbv.BadInput, match="scale"):
-                belief.sample(scale)
-        asked.append(len(belief.evaluate([[1e3, 0, -50, 0]])))
 
-    gnbv.run("smoke", planner=asks, set=short)
-    assert asked == [1]
+def test_wrong_questions_are_bad_input_and_end_nothing(short, tmp_path):
+    gnbv.run("smoke", planner=asks_wrongly, set=short)
+    gnbv.run("smoke", planner=file_of(asks_wrongly, tmp_path), set=short)
+
+
+def test_what_a_planner_forks_hears_signals_as_if_no_mission_flew(short):
+    """As multiprocessing's pools do, which end their processes by SIGTERM."""
+    ends = []
+
+    def forks(belief, history):
+        child = multiprocessing.get_context("fork").Process(target=time.sleep, args=(60,))
+        child.start()
+        child.terminate()
+        child.join(20)
+        ends.append(child.exitcode)
+        child.kill()
+        return None
+
+    gnbv.run("smoke", planner=forks, set=short)
+    assert ends == [-signal.SIGTERM]
 
 
 def test_a_planner_in_a_file_that_asks_the_terminal_hears_that_nobody_is_there(tmp_path):

@@ -22,7 +22,8 @@ os.dup2(2, 1)
 
 
 def send(fields, raw=b""):
-    tell.write(json.dumps({**fields, "bytes": len(raw)}).encode() + b"\n" + raw)
+    line = json.dumps({**fields, "bytes": len(raw)}, ensure_ascii=False)
+    tell.write(line.encode(errors="replace") + b"\n" + raw)  # a message may be no UTF-8
     tell.flush()
 
 
@@ -46,9 +47,10 @@ def text_of(error, file):
 def load(hello, space):
     source, file = hello["source"], hello["file"]
     linecache.cache[file] = (len(source), None, source.splitlines(True), file)
-    space.update({"__name__": "gnbv_user", "np": numpy, "numpy": numpy})
-    exec(compile(source, file, "exec"), space)
-    return space[hello["function"]]
+    module = sys.modules["gnbv_user"] = types.ModuleType("gnbv_user")  # for pickle, dataclasses
+    vars(module).update(space, np=numpy, numpy=numpy)
+    exec(compile(source, file, "exec"), vars(module))
+    return vars(module)[hello["function"]]
 
 
 # ---- a utility
@@ -142,7 +144,7 @@ class Told:
     def density(self):
         raw = self._ask("density")[1]
         half = len(raw) // 2
-        return numpy.frombuffer(raw[:half], "<i8"), numpy.frombuffer(raw[half:], "<f8")
+        return (numpy.frombuffer(raw[:half], "<i8").copy(), numpy.frombuffer(raw[half:], "<f8").copy())
 
     def sample(self, scale):
         return numpy.frombuffer(self._ask("sample", scale=scale)[1], "<f8").reshape(-1, 5).copy()
@@ -152,14 +154,14 @@ class Told:
 
     def validate(self, rows):
         fields, raw = self._ask("validate", rows)
-        return fields["reasons"], numpy.frombuffer(raw, "<f8")
+        return fields["reasons"], numpy.frombuffer(raw, "<f8").copy()
 
     def evaluate(self, rows):
         return self._ask("evaluate", rows)[1]
 
     def find_path(self, start, goal):
         fields, raw = self._ask("find_path", [*start, *goal])
-        return numpy.frombuffer(raw, "<f8").reshape(-1, 3) if fields["found"] else None
+        return numpy.frombuffer(raw, "<f8").reshape(-1, 3).copy() if fields["found"] else None
 
 
 def planner_module(hello):

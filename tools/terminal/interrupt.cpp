@@ -1,5 +1,7 @@
 #include "tools/terminal/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
 #include <mutex>
@@ -13,6 +15,7 @@ constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t stop_requests = 0;
 volatile std::sig_atomic_t asks_left = 0;
 volatile std::sig_atomic_t is_guest = 0;
+volatile std::sig_atomic_t asked_process = 0;
 
 // signals are the process's, and so are these
 std::mutex guards_mutex;
@@ -24,6 +27,11 @@ void give_back_signals() {
 }
 
 void ask_to_stop(int signal) {
+  if (::getpid() != asked_process) {  // a fork of ours, which nobody asks whether to stop
+    give_back_signals();
+    std::raise(signal);
+    return;
+  }
   stop_requests = stop_requests + 1;
   asks_left = asks_left - 1;
   if (asks_left > 0) return;
@@ -35,7 +43,13 @@ void ask_to_stop(int signal) {
 
 InterruptGuard::InterruptGuard(int asks) {
   const std::lock_guard lock(guards_mutex);
+  if (living_guards > 0 && ::getpid() != asked_process) {  // those of whom this is a fork
+    give_back_signals();
+    living_guards = 0;
+    stop_requests = 0;
+  }
   if (living_guards++ > 0) return;
+  asked_process = ::getpid();
   is_guest = asks == kGuest ? 1 : 0;
   asks_left = is_guest != 0 ? 2 : asks;
   struct sigaction ours {};

@@ -8,7 +8,7 @@ namespace gnbv {
 /// Signals that were ignored before stay so.
 ///
 /// Many may live at once, in threads, too: the first says how often is asked, what is asked is
-/// asked of all, and the last gives the signals back.
+/// asked of all, and the last gives the signals back. A forked child hears them as before.
 class InterruptGuard {
  public:
   /// `asks` in a process of somebody else's, Python: once, and the second one is its own as well,

@@ -5,7 +5,7 @@ The program runs this file, too, where a planner flies from its source: it needs
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -103,16 +103,20 @@ class Belief:
 
     @property
     def density_max(self) -> float:
-        """The density of a fully scanned plane."""
+        """What densities are shares of: 3 (voxel / leaf of the cloud)^2. No plane reaches it."""
         return float(self._view.density_max)
 
     @property
     def frames(self) -> list[Any]:
         """What each camera saw at the latest view: gnbv.Frame, its own copies. In colour where the
-        mission keeps frames (gnbv.run(..., frames=True)). Raises BadInput for a planner that flies
-        from a file."""
+        mission keeps frames (gnbv.run(..., frames=True)) or an environment observes "rgb". Raises
+        BadInput for a planner that flies from a file, and for an environment that observes neither
+        "depth" nor "rgb"."""
         if self._frames is None:
-            raise BadInput("belief.frames: only a planner of this process, gnbv.run(planner=), has")
+            raise BadInput(
+                "belief.frames: only a planner of this process, gnbv.run(planner=), has, and an "
+                "environment made with observe=('depth',) or 'rgb'"
+            )
         self._view.current  # noqa: B018  (raises after the call)
         from gnbv._frames import Frame  # a planner in a file has this module alone
 
@@ -126,9 +130,10 @@ class Belief:
     def sample(self, scale: float = 1.0) -> npt.NDArray[np.float64]:
         """Views on the grid around the current one (AGVS), its steps times `scale`; n x 5, as
         View."""
-        if not 0.0 <= scale < np.inf:
+        given = numbers(scale)
+        if given is None or given.ndim or not 0.0 <= given < np.inf:
             raise BadInput(f"sample: scale {scale!r}: expected a number from 0")
-        return self._view.sample(scale)  # type: ignore[no-any-return]
+        return self._view.sample(float(given))  # type: ignore[no-any-return]
 
     def sample_frontiers(self) -> npt.NDArray[np.float64]:
         """Views of the thinly sampled surface (FVS); n x 5, as View."""
@@ -166,11 +171,19 @@ class Belief:
         return np.frombuffer(self._view.evaluate(rows), np.dtype(self._view.stats_dtype))
 
     def find_path(
-        self, start: Iterable[float], goal: Iterable[float]
+        self, start: npt.ArrayLike, goal: npt.ArrayLike
     ) -> npt.NDArray[np.float64] | None:
-        """Points (n x 3, m) between the two where the straight way is blocked; None: no way."""
-        a, b = (tuple(map(float, p))[:3] for p in (start, goal))
-        return self._view.find_path(a, b)  # type: ignore[no-any-return]
+        """Points (n x 3, m) between the two where the straight way is blocked; None: no way.
+
+        The ends are x, y, z (m), or views.
+        """
+        ends = []
+        for given in (start, goal):
+            point = numbers(given)
+            if point is None or point.ndim != 1 or len(point) < 3 or not np.isfinite(point).all():
+                raise BadInput(f"find_path: expected finite x, y, z, got {given!r:.200}")
+            ends.append(point[:3].tolist())
+        return self._view.find_path(*ends)  # type: ignore[no-any-return]
 
 
 class History:
@@ -248,7 +261,7 @@ def numbers(given: Any) -> npt.NDArray[np.float64] | None:
         if array.dtype.kind not in "biufO" or np.ma.is_masked(array):
             return None
         return np.asarray(array, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return None
 
 
