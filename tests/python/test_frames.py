@@ -1,5 +1,7 @@
 """What cameras saw, in a planner and in a run."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -44,7 +46,7 @@ def test_a_planner_sees_what_its_cameras_saw_and_the_run_keeps_it():
         finite = np.isfinite(ours.depth_m)
         assert finite.any() and np.array_equal(finite, np.isfinite(read.depth_m))
         assert np.allclose(ours.depth_m[finite], read.depth_m[finite], atol=0.00051)
-    assert run.frames[-1].iteration == 2
+    assert run.frames[-1].iteration == pickle.loads(pickle.dumps(run)).frames[-1].iteration == 2
     with pytest.raises(IndexError):
         run.frames[3]
 

@@ -3,6 +3,8 @@
 import io
 import json
 import os
+import pickle
+import shutil
 import signal
 import subprocess
 import sys
@@ -82,16 +84,36 @@ def test_bad_input_says_where(tmp_path):
         gnbv.run("nowhere")
     with pytest.raises(gnbv.BadInput, match=r"summary[.]json"):
         gnbv.load(tmp_path)
-    (tmp_path / "summary.json").write_text("{\n]")
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "line", "asked"),
+    [("summary.json", text, line, "summary") for text, line in [(b"{\n]", 2), (b"[]", 0)]]
+    + [(f"{name}.csv", b"", 1, name) for name in ("iterations", "coverage")]
+    + [("coverage.csv", b"view,metres\n0,1\n1\n", 3, "coverage")]
+    + [("coverage.csv", b"view,metres\n0,x\n", 2, "coverage")]
+    + [("trajectory.tum", text, 0, "trajectory") for text in (b"1 2 3\n", b"1 2 3 4 5 6 7 x\n")]
+    + [
+        (file, b"\xff", 0, asked)
+        for file, asked in [("summary.json", "summary"), ("iterations.csv", "iterations")]
+        + [("trajectory.tum", "trajectory"), ("utility.py", "utility_source")]
+        + [("cloud.ply", "cloud"), ("map.ot", "map")]
+    ],
+)
+def test_a_damaged_file_of_a_run_is_named(file, text, line, asked, smoke, tmp_path):
+    shutil.copytree(smoke.folder, tmp_path / "r")
+    (tmp_path / "r" / file).write_bytes(text)
     with pytest.raises(gnbv.BadInput) as bad:
-        gnbv.load(tmp_path)
-    assert bad.value.line == 2
+        getattr(gnbv.load(tmp_path / "r"), asked)
+    assert (bad.value.file, bad.value.line) == (str(tmp_path / "r" / file), line)
 
 
 @pytest.mark.parametrize(
     ("named", "given"),
     [(n, {n: v}) for n, v in [("bounds", "Auto"), ("bounds", None)]]
     + [("threads", {"threads": value}) for value in (1.0, -1, 2**40, "2")]
+    + [("frames", {"frames": value}) for value in (None, "no", 2)]
+    + [("out", {"out": value}) for value in ("a\0b", os.fsdecode(b"\xff"), 3)]
     + [("start.yaw_deg", {"set": {"start.yaw_deg": value}}) for value in (1j, object())],
 )
 def test_arguments_that_mean_nothing_are_bad_input(named, given):
@@ -99,9 +121,21 @@ def test_arguments_that_mean_nothing_are_bad_input(named, given):
         gnbv.run("smoke", **given)
 
 
+@pytest.mark.parametrize(
+    "error",
+    [gnbv.UtilityFailed("utility f: iteration 2, candidate 3: no", "runs/a")]
+    + [gnbv.Interrupted("runs/a"), gnbv.BadInput("a.yaml:3: b: value 'c': no")],
+)
+def test_errors_come_whole_from_another_process(error):
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), vars(again)) == (type(error), str(error), vars(error))
+
+
 def test_a_setting_may_be_a_path(short, tmp_path):
-    with pytest.raises(gnbv.BadInput, match=f"terrain.path.*{tmp_path}/none.obj"):
-        gnbv.run("smoke", set={**short, "terrain.path": tmp_path / "none.obj"})
+    file = tmp_path / "\U0001f681.obj"
+    for key, value in [("terrain.path", file), ("obstacles", [{"path": str(file)}])]:
+        with pytest.raises(gnbv.BadInput, match=str(file)):
+            gnbv.run("smoke", set={**short, key: value})
 
 
 def test_progress_is_told_and_may_raise(short):

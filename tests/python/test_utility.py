@@ -1,5 +1,6 @@
 """A utility in five lines."""
 
+import functools
 import subprocess
 import sys
 from collections import Counter
@@ -76,8 +77,9 @@ def test_free_variables_and_lambdas_are_refused():
 
     with pytest.raises(gnbv.BadInput, match="uses weight from around it"):
         gnbv.run("smoke", utility=closes)
-    with pytest.raises(gnbv.BadInput, match="expected a function with a name"):
-        gnbv.run("smoke", utility=lambda views: views["path_m"])
+    for nameless in (lambda views: views["path_m"], functools.partial(mine)):
+        with pytest.raises(gnbv.BadInput, match="expected a function with a name"):
+            gnbv.run("smoke", utility=nameless)
 
 
 def wander(belief, history):

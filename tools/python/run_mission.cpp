@@ -168,12 +168,12 @@ RunArguments arguments_of(const nb::dict& given) {
                   .preset = text("preset"),
                   .seed = text("seed"),
                   .overrides = nb::cast<std::vector<std::string>>(given["overrides"]),
-                  .views = text("views"),
+                  .views = {},
                   .bounds_auto = flag("bounds_auto")};
   out.mission.out = text("out");
   out.mission.threads = nb::cast<int>(given["threads"]);
   out.mission.resume = flag("resume");
-  out.mission.quiet = flag("quiet");
+  out.mission.quiet = true;
   out.mission.candidates = flag("candidates");
   out.mission.frames = flag("frames");
   if (flag("ceiling")) out.mission.ceiling = CeilingFrom::search;
@@ -243,7 +243,6 @@ void bind_run(nb::module_& m) {
                 "collections.abc.Callable[[float, str], None] | None, on_view: "
                 "collections.abc.Callable[[dict[str, typing.Any]], None] | None) -> "
                 "tuple[str, str, str]"));
-  m.def("builtin_scenarios", &builtin_scenario_names);
   m.def("utilities", [] {
     std::vector<std::string> names;
     for (const std::string_view name : utility_names()) names.emplace_back(name);

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 _PLACE = re.compile(
     r"(?:gnbv: )?(?P<file>.+?)(?::(?P<line>\d+))?: (?:(?P<key>[\w.]+): )?"
@@ -62,6 +62,9 @@ class UtilityFailed(Failed):
         self.candidate = int(found[2]) if found and found[2] else None
         self.traceback = found[3] if found else message
 
+    def __reduce__(self) -> tuple[Any, ...]:  # from another process
+        return UtilityFailed, (str(self), self.folder)
+
 
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C: the mission ended after the view at hand; run(resume=True, out=folder) goes on."""
@@ -69,6 +72,9 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, folder: str) -> None:
         super().__init__(f"interrupted; gnbv.run(..., out={folder!r}, resume=True) continues it")
         self.folder = folder
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Interrupted, (self.folder,)
 
 
 def faults_in(message: str) -> list[Fault]:

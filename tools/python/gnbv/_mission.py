@@ -83,22 +83,24 @@ def run(
         chosen = "route" if is_here else arguments[0] if arguments else ""
         overrides = settings(set)
         given = {
-            "scenario": os.fspath(scenario),
-            "mesh": os.fspath(mesh) if mesh is not None else "",
+            "scenario": text_of("scenario", scenario),
+            "mesh": text_of("mesh", mesh or ""),
             "utility": chosen,
-            "preset": preset or "",
+            "preset": text_of("preset", preset or ""),
             "seed": "" if seed is None else str(seed),
             "overrides": overrides + ([recorded_planner(planner)] if callable(planner) else []),
-            "views": "",
             "bounds_auto": bounds == "auto",
-            "out": os.fspath(out) if out is not None else "",
+            "out": text_of("out", out or ""),
             "threads": threads,
             "resume": resume,
-            "quiet": True,
             "candidates": candidates,
             "frames": frames,
             "ceiling": ceiling,
         }
+        for name in ("resume", "candidates", "frames", "ceiling"):
+            if given[name] not in (True, False):
+                raise BadInput(f"{name}: value {given[name]!r}: expected True or False")
+            given[name] = bool(given[name])
         shown = stack.enter_context(_Shown(progress, os.fspath(scenario)))
         asked = AskedPlanner(planner) if callable(planner) else None
         show = shown.show if shown else None
@@ -127,19 +129,34 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     return number
 
 
+def text_of(name: str, value: Any) -> str:
+    """A name or a path as the program takes it. Raises BadInput for what is none."""
+    try:
+        text = os.fsdecode(value)
+        if b"\0" not in text.encode():
+            return text
+    except (TypeError, UnicodeError):
+        pass
+    raise BadInput(f"{name}: value {value!r}: expected text or a path, in UTF-8")
+
+
 def settings(values: Mapping[str, Any] | None) -> list[str]:
     """KEY=YAML of each, JSON being a part of YAML; a str is taken for YAML already."""
 
     def plain(value: Any) -> Any:
-        return value.tolist() if hasattr(value, "tolist") else os.fspath(value)
+        return value.tolist() if hasattr(value, "tolist") else os.fsdecode(value)
 
     texts = []
     for key, value in (values or {}).items():
         try:
-            text = value if isinstance(value, str) else json.dumps(value, default=plain)
+            text = (
+                value
+                if isinstance(value, str)
+                else json.dumps(value, default=plain, ensure_ascii=False)
+            )
         except (TypeError, ValueError) as error:
             raise BadInput(f"set: {key}: value {value!r:.100}: {error}") from error
-        texts.append(f"{key}={text}")
+        texts.append(text_of("set", f"{key}={text}"))
     return texts
 
 

@@ -34,6 +34,9 @@ class Run:
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
 
+    def __reduce__(self) -> tuple[Any, ...]:  # another process reads what it is asked for
+        return Run, (self.folder,)
+
     def __repr__(self) -> str:
         s = self.summary
         return (
@@ -53,6 +56,10 @@ class Run:
             ) from error
         except json.JSONDecodeError as error:
             raise BadInput(f"{file}:{error.lineno}: {error.msg}") from error
+        except UnicodeDecodeError as error:
+            raise BadInput(f"{file}: {error}") from error
+        if not isinstance(read, dict) or "coverage" not in read:
+            raise BadInput(f"{file}: is no summary of a run")
         return read
 
     @cached_property
@@ -91,7 +98,12 @@ class Run:
     @cached_property
     def trajectory(self) -> npt.NDArray[np.float64]:
         """The true path at 10 Hz: time (s), x, y, z (m), qx, qy, qz, qw; body in world."""
-        return np.loadtxt(self.folder / "trajectory.tum", ndmin=2)
+        file = self.folder / "trajectory.tum"
+        lines = _lines(file)
+        try:
+            return np.loadtxt(lines, ndmin=2, usecols=range(8))
+        except ValueError as error:
+            raise BadInput(f"{file}: {error}") from error
 
     @property
     def final_coverage(self) -> float:
@@ -117,7 +129,7 @@ class Run:
     def utility_source(self) -> str | None:
         """The text of a utility of your own, as it was run."""
         file = self.folder / "utility.py"
-        return file.read_text(encoding="utf-8") if file.exists() else None
+        return "".join(_lines(file)) if file.exists() else None
 
     def render(self, *what: str, out: str | os.PathLike[str] | None = None) -> list[Path]:
         """Draws pictures ("path" by default; `gnbv render --help`), and returns their files."""
@@ -138,7 +150,7 @@ class Run:
         said = call(
             "export", str(self.folder), "--format", form, *(["-o", str(out)] if out else [])
         )
-        return Path(said.splitlines()[-1])
+        return Path(said.rstrip("\n").split("\n")[-1])
 
 
 def load(folder: Union[str, os.PathLike[str]]) -> Run:
@@ -148,15 +160,28 @@ def load(folder: Union[str, os.PathLike[str]]) -> Run:
     return run
 
 
+def _lines(file: Path) -> list[str]:
+    """With their ends. Raises BadInput for a file that is no text."""
+    try:
+        return file.read_text(encoding="utf-8").splitlines(keepends=True)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{file}: cannot be read: {error}") from error
+
+
 def _csv(file: Path) -> Array:
     def kind(name: str, cells: list[str]) -> str:
         if name in _TEXT:
             return f"U{max(map(len, cells), default=0) or 1}"
         return "i8" if name in _COUNTS else "f8"
 
-    try:
-        names, *rows = (line.split(",") for line in file.read_text(encoding="utf-8").splitlines())
-        columns = [(name, kind(name, cells)) for name, *cells in zip(names, *rows, strict=True)]
-        return np.array([tuple(row) for row in rows], columns)
-    except (OSError, ValueError) as error:
-        raise BadInput(f"{file}: cannot be read: {error}") from error
+    names, *rows = [line.rstrip("\n").split(",") for line in _lines(file) or [""]]
+    if not all(names):
+        raise BadInput(f"{file}:1: has no names of columns")
+    columns = [[row[i] for row in rows if i < len(row)] for i in range(len(names))]
+    read = np.empty(len(rows), [(n, kind(n, c)) for n, c in zip(names, columns, strict=True)])
+    for i, row in enumerate(rows):
+        try:
+            read[i] = tuple(row)
+        except ValueError as error:
+            raise BadInput(f"{file}:{i + 2}: {error}") from error
+    return read

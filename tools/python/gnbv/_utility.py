@@ -69,9 +69,10 @@ def as_arguments(given: Utilities) -> Iterator[list[str]]:
             if is_named and not re.fullmatch(r"[^=/.,\s]+", name):
                 raise BadInput(f"utility {name!r}: a name is one word without = / . and commas")
             if callable(utility):
+                source = source_of(utility)
                 file = Path(folder, str(i), _file_of(utility) or f"{utility.__name__}.py")
                 file.parent.mkdir()
-                file.write_text(source_of(utility), encoding="utf-8")
+                file.write_text(source, encoding="utf-8")
                 text = f"{file}:{utility.__name__}"
             else:
                 text = os.fspath(utility)
