@@ -284,6 +284,11 @@ def test_candidates_and_seeds_are_checked_likewise():
             envs.reset(seed=seeds)
     assert before == [episode.mission for episode in envs._episodes]
     envs.step(envs.action_space.sample())
+    poses = []
+    for _ in range(2):  # None goes on, as with a single environment
+        envs.reset(seed=[1, 2])
+        poses.append(envs.reset(seed=[None, None])[0]["pose"])
+    assert same(*poses) and not same(poses[0], envs.reset(seed=[1, 2])[0]["pose"])
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 gymnasium = pytest.importorskip("gymnasium")
-import gnbv.gym  # noqa: E402, F401
+import gnbv.gym  # noqa: E402
 
 SET = {"planner.termination.max_iterations": 5, "planner.profiling.method": "none"}
 ALL = ("depth", "rgb", "crop", "poses")
@@ -36,12 +36,21 @@ def test_all_of_it_is_in_its_space(stepped):
 
 
 def test_images_are_those_of_the_beliefs_frames(stepped):
-    env, (seen, *_) = stepped
+    env, (seen, *_, info) = stepped
     (frame,) = env.belief.frames
     assert np.array_equal(seen["rgb_rgbd"], frame.rgb) and len(np.unique(frame.rgb)) > 10
     hit = np.isfinite(frame.depth_m)
     assert hit.any() and np.array_equal(seen["depth_rgbd"][hit], frame.depth_m[hit])
     assert (seen["depth_rgbd"][np.isposinf(frame.depth_m)] == 5.0).all()
+    kept = {key: array.copy() for key, array in seen.items() if key.endswith("rgbd")}
+    for array in (seen["rgb_rgbd"], frame.rgb, frame.depth_m):  # whose they are
+        array[...] = 7
+    again = env.step(int(np.flatnonzero(info["action_mask"] == 0)[0]))[0]  # moves nothing
+    assert all(np.array_equal(again[key], array) for key, array in kept.items())
+    with pytest.raises(gnbv.BadInput, match="environment made with observe"):
+        plain = made()
+        plain.reset()
+        plain.belief.frames  # noqa: B018
 
 
 def test_the_crop_is_the_map_around_the_vehicle(stepped):

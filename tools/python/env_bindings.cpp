@@ -45,10 +45,7 @@ nb::dict description(const EnvStage& stage) {
   const EnvObserver observer(scenario.planner, model, stage.scales);
   const Box3& box_m = model.navigation_m;
   nb::dict out;
-  out["name"] = scenario.name;
-  out["seed"] = scenario.seed;
   out["ceiling"] = stage.ceiling;
-  out["goal_coverage"] = stage.goal_coverage;
   out["max_iterations"] = scenario.planner.termination.max_iterations;
   out["low_m"] = nb::make_tuple(box_m.min().x(), box_m.min().y(), box_m.min().z());
   out["high_m"] = nb::make_tuple(box_m.max().x(), box_m.max().y(), box_m.max().z());

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -111,8 +112,9 @@ class Episode:
 
     def belief(self) -> Belief:
         self.need("belief")
-        frames = self.state.get("frames")
-        return Belief(self.mission.belief(), None if frames is None else lambda: frames)
+        frames = self.state.get("frames")  # as observations have them
+        copied = None if frames is None else lambda: copy.deepcopy(frames)
+        return Belief(self.mission.belief(), copied)
 
     def picture(self) -> Array | None:
         """None where no pictures are asked for."""

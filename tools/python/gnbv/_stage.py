@@ -13,7 +13,7 @@ from gymnasium import spaces
 from gnbv import _core
 from gnbv._errors import BadInput
 from gnbv._frames import Frame
-from gnbv._mission import MOST_THREADS, settings, whole
+from gnbv._mission import MOST_THREADS, settings, text_of, whole
 
 METADATA: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 4}
 OBSERVE = ("depth", "rgb", "crop", "poses")
@@ -55,7 +55,7 @@ class Stage:
         made_of = (repr(dict(set or {})), render_mode, seeds, self.observe, crop)
         self.made_by = (str(scenario), action, goal, *made_of)
         self.draws = render_mode is not None
-        self.core = _core.EnvStage(scenario, settings(set), goal, seeds)
+        self.core = _core.EnvStage(text_of("scenario", scenario), settings(set), goal, seeds)
         self.permits = _core.Permits(max(1, threads or os.cpu_count() or 1))
         self.about: dict[str, Any] = self.core.description
         self.is_candidate = action == "candidate"
@@ -173,5 +173,6 @@ class Stage:
                 out[f"depth_{name}"] = np.clip(depth_m, 0.0, np.float32(range_max_m))
             if "rgb" in self.observe:
                 rgb = frame.rgb if frame else None
-                out[f"rgb_{name}"] = np.zeros((height, width, 3), np.uint8) if rgb is None else rgb
+                black = np.zeros((height, width, 3), np.uint8)
+                out[f"rgb_{name}"] = black if rgb is None else rgb.copy()
         return out

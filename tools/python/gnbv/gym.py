@@ -220,7 +220,7 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         self._stage = Stage(scenario, action, goal, set, threads, render_mode, seeds, observe, crop)
         self._episodes = [Episode(self._stage) for _ in range(num_envs)]
         self._over = np.zeros(num_envs, dtype=bool)
-        self._randoms: list[np.random.Generator] = []
+        self._randoms: list[Any] = [None] * num_envs
         self.single_action_space = self._stage.action_space()
         self.single_observation_space = self._stage.observation_space()
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -240,8 +240,10 @@ class NbvVectorEnv(VectorEnv[Any, Any, Any]):
         )
         if len(seeds) != self.num_envs:
             raise ValueError(f"reset: {len(seeds)} seeds for {self.num_envs} environments")
-        if seed is not None or not self._randoms:
-            self._randoms = [gymnasium.utils.seeding.np_random(s)[0] for s in seeds]
+        self._randoms = [  # no seed goes on with the random numbers that there are
+            before if s is None and before else gymnasium.utils.seeding.np_random(s)[0]
+            for s, before in zip(seeds, self._randoms, strict=True)
+        ]
         self._over[:] = False
         for episode, random in zip(self._episodes, self._randoms, strict=True):
             episode.begin(random)
