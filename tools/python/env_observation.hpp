@@ -32,7 +32,7 @@ std::vector<float> top_view(const OccupancyGrid& grid);
 
 /// 2 x edge x edge x edge (z, y, x), of the map's voxels around that point: the probability of
 /// occupied, 0.5 while unmeasured and outside of the map; the density of the cloud's points, as a
-/// share of a fully scanned plane's.
+/// share of density_max().
 std::vector<float> local_crop(const Belief& belief, const Vec3& at_world_m, int edge);
 
 class EnvObserver {

@@ -163,7 +163,8 @@ class Belief:
         but where a unit says else): rays, rays_occupied, occlusion_aware_nat, unobserved_nat,
         rear_side_rays, rear_side_nat, crossed_by_occupied (voxels), entropy_of_occupied_nat,
         unknown_volume_m3, front_rays. path_m: the straight way (m), also where a utility gets the
-        length of the way around. Only utilities get proximity_sum and shadow_rays.
+        length of the way around. Only utilities get proximity_sum, shadow_rays and
+        the pose.
         """
         rows = view_rows(views)
         for i in np.flatnonzero(np.abs(rows[:, :3]).max(axis=1, initial=0.0) > _FARTHEST_M)[:1]:

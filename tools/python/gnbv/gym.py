@@ -22,8 +22,9 @@ With `observe`, some of "depth", "rgb", "crop", "poses", also: "depth_NAME" (H, 
 along the optical axis, 0 nearer than it measures and its range where nothing returns; "rgb_NAME"
 (H, W, 3), sRGB; "crop" (2, `crop`, `crop`, `crop`), the map's own voxels (z, y, x) around the
 vehicle: the probability of occupied, 0.5 unmeasured and outside, and the density of the cloud's
-points, a share of the most; "candidate_poses": x, y, z of the navigation box, sine and cosine of
-the yaw, pitch / (pi / 2). `env.belief` is all that is believed, as a planner of gnbv.run gets it.
+points, a share of belief.density_max; "candidate_poses": x, y, z of the navigation box, sine and
+cosine of the yaw, pitch / (pi / 2). `env.belief` is all that is believed, as a planner of gnbv.run
+gets it.
 
 State: `clone_state()` and `restore_state(state)` go back to any step, exactly, as do
 copy.deepcopy(env) and pickle: the former by a copy of the mission, the latter by flying its actions
