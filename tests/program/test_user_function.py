@@ -86,8 +86,10 @@ def test_it_is_compared_with_others(run, python):
     ('calls = []\ndef f(views):\n    calls.append(1)\n'
      '    return views["path_m"] * (1 if len(calls) < 3 else float("nan"))\n',
      'utility f: iteration 3, candidate'),
-    *((f'def f(views):\n    return {returned}\n', 'utility f: iteration 1')
-      for returned in ('1.0', "views['path_m'][:-1]", "'many'", 'None', '[[1.0]]')),
+    *((f'def f(views):\n    return {returned}\n', 'utility f: iteration 1, all 53 candidates '
+       f'together: returned {told}') for returned, told in [
+           ('1.0', 'shape ()'), ("views['path_m'][:-1]", 'shape (52,)'), ('[[1.0]]', 'shape (1, 1)'),
+           ("'many'", "'many', expected a number a row"), ("views['rays'] * 1j", 'array([0.')]),
     ('def f(views):\n    import os\n    os._exit(7)\n',
      'iteration 1: its Python ended (exit code 7)'),
     ('def f(belief, history):\n    print("on stderr")\n'

@@ -16,30 +16,6 @@ import gnbv.gym  # noqa: E402
 BUDGET = {"planner.termination.max_iterations": 8}
 
 
-def actions_of(env, info, count, seed):
-    random = np.random.default_rng(seed)
-    for _ in range(count):
-        if "action_mask" in info:
-            allowed = np.flatnonzero(info["action_mask"])
-            yield int(random.choice(allowed)) if len(allowed) else 0
-        else:
-            yield random.uniform(-1, 1, env.action_space.shape).astype(np.float32)
-
-
-def episode(env, seed, count=6):
-    seen, info = env.reset(seed=seed)
-    trace = [seen]
-    for action in actions_of(env, info, count, seed):
-        if "action_mask" in info:
-            allowed = np.flatnonzero(info["action_mask"])
-            action = int(allowed[action % len(allowed)])
-        seen, reward, terminated, truncated, info = env.step(action)
-        trace.append((seen, reward, terminated, truncated, info["coverage"]))
-        if terminated or truncated:
-            break
-    return trace
-
-
 def same(a, b):
     if isinstance(a, dict):
         return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
@@ -57,21 +33,6 @@ def test_check_env(action):
         warnings.simplefilter("error")
         check_env(env, skip_render_check=True)
     env.close()
-
-
-@pytest.mark.parametrize("action", ["view", "candidate"])
-def test_seeds_repeat_bit_by_bit(action):
-    env = gymnasium.make("gnbv/Smoke-v0", action=action, set=BUDGET, disable_env_checker=True)
-    first, again, other = episode(env, 5), episode(env, 5), episode(env, 6)
-    assert same(first, again)
-    assert not same(first, other)
-
-
-def test_observations_are_finite_and_within_their_space():
-    env = gymnasium.make("gnbv/Smoke-v0", action="candidate", set=BUDGET)
-    for step in episode(env, 1)[1:]:
-        assert env.observation_space.contains(step[0])
-        assert all(np.isfinite(part).all() for part in step[0].values())
 
 
 def test_rewards_add_up_to_the_coverage_gained():
@@ -158,31 +119,14 @@ def of_kind(kind, **more):
 KINDS = pytest.mark.parametrize("kind", ["single", "vector"])
 
 
-def within(seconds, call):
-    """Its exception; a hang fails the test, and its thread goes with the process."""
-    raised = []
-
-    def run():
-        try:
-            call()
-        except BaseException as error:
-            raised.append(error)
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(seconds)
-    assert not thread.is_alive(), "it hangs"
-    return raised[0] if raised else None
-
-
 @KINDS
 def test_a_closed_environment_says_so_and_can_be_reset(kind):
     env = of_kind(kind)
     env.reset(seed=1)
     action = env.action_space.sample()
     (env.close if kind == "single" else env.close_extras)()
-    error = within(20, lambda: env.step(action))
-    assert isinstance(error, RuntimeError) and "closed; call reset()" in str(error)
+    with pytest.raises(RuntimeError, match=r"closed; call reset\(\)"):
+        env.step(action)
     env.reset(seed=1)
     env.step(action)
 

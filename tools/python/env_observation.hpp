@@ -45,7 +45,6 @@ class EnvObserver {
                          bool with_candidates);
   /// How many candidates there always are.
   std::size_t candidate_count() const;
-  const PlannerModel& model() const { return model_; }
 
  private:
   void add_candidates(const Belief& belief, const ViewPose& current, EnvObservation& out);
