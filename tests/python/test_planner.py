@@ -340,5 +340,6 @@ def test_no_truth_can_be_reached_from_what_a_planner_gets():
 
 
 def test_a_planner_excludes_a_utility():
-    with pytest.raises(gnbv.BadInput, match="without a utility"):
-        gnbv.run("smoke", planner=greedy, utility="bircher")
+    for given in ({"utility": "bircher"}, {"set": {"planner.utility.name": "bircher"}}):
+        with pytest.raises(gnbv.BadInput, match="without a utility"):
+            gnbv.run("smoke", planner=greedy, **given)

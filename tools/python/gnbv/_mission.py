@@ -70,7 +70,8 @@ def run(
         Failed: the vehicle hit something or was carried away; the run directory shows where.
         Whatever the planner raised, after the mission has ended in order.
     """
-    if planner is not None and utility is not None:
+    is_named = utility is not None or "planner.utility.name" in (set or {})
+    if planner is not None and is_named:
         raise BadInput("planner: a planner chooses without a utility; give one of the two")
     if bounds not in ("scenario", "auto"):
         raise BadInput(f"bounds: value {bounds!r}: expected 'scenario' or 'auto'")
