@@ -79,6 +79,9 @@ def test_bad_input_says_where(tmp_path):
         gnbv.run(file)
     fault = next(f for f in bad.value.faults if f.key == "planner.utility.alpha")
     assert (fault.file, fault.line, fault.value) == (str(file), 4, "[1]")
+    file.write_text("name: x\nplanner: {utility: {alpha: \u00e9}}\n", encoding="latin-1")
+    with pytest.raises(gnbv.BadInput, match=r"utility\.alpha: value '\\xe9': expects a number"):
+        gnbv.run(file)
 
     with pytest.raises(gnbv.BadInput, match="no built-in scenario"):
         gnbv.run("nowhere")

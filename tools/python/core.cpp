@@ -17,16 +17,21 @@ namespace {
 
 namespace nb = nanobind;
 
+/// As the program prints it: bytes that are no UTF-8 as \xNN.
+nb::object text_of(const std::string& bytes) {
+  return nb::steal(PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()),
+                                        "backslashreplace"));
+}
+
 /// gnbv.BadInput(message, [(file, line, key, value, what), ...]).
 void raise_bad_input(const char* text, std::span<const gnbv::ValidationError> errors) {
   nb::list faults;
   for (const auto& [location, key, value, what] : errors) {
-    faults.append(nb::make_tuple(nb::str(location.source.c_str()), location.line,
-                                 nb::str(key.c_str()), nb::str(value.c_str()),
-                                 nb::str(what.c_str())));
+    faults.append(nb::make_tuple(text_of(location.source), location.line, text_of(key),
+                                 text_of(value), text_of(what)));
   }
   const nb::object type = nb::module_::import_("gnbv._errors").attr("BadInput");
-  PyErr_SetObject(type.ptr(), type(nb::str(text), faults).ptr());
+  PyErr_SetObject(type.ptr(), type(text_of(text), faults).ptr());
 }
 
 void translate(const std::exception_ptr& thrown, void*) {
@@ -39,8 +44,8 @@ void translate(const std::exception_ptr& thrown, void*) {
   } catch (const std::filesystem::filesystem_error& error) {
     raise_bad_input((error.path1().string() + ": " + error.code().message()).c_str(), {});
   } catch (const gnbv::BrokenInvariant& error) {
-    PyErr_SetString(nb::module_::import_("gnbv._errors").attr("BrokenInvariant").ptr(),
-                    error.what());
+    PyErr_SetObject(nb::module_::import_("gnbv._errors").attr("BrokenInvariant").ptr(),
+                    text_of(error.what()).ptr());
   }
 }
 
