@@ -39,12 +39,6 @@ def test_train_ppo(tmp_path):
     assert (tmp_path / "c.png").read_bytes()[:4] == b"\x89PNG"
 
 
-def test_plot_coverage(smoke, tmp_path):
-    pytest.importorskip("matplotlib")
-    said("plot_coverage.py", tmp_path / "c.png", smoke.folder, smoke.folder)
-    assert (tmp_path / "c.png").read_bytes()[:4] == b"\x89PNG"
-
-
 def test_the_notebook():
     cells = json.loads((EXAMPLES / "sweep.ipynb").read_text())["cells"]
     code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]

@@ -47,17 +47,25 @@ def test_a_run_reads_back_as_arrays(smoke):
     assert "smoke" in repr(again)
 
 
-def test_the_map_has_the_volume_and_the_entropy_that_the_summary_says(smoke):
-    """Leaves do not overlap, and each point of the cloud lies in one."""
-    leaves = smoke.map
-    cells = np.round((leaves["size_m"] / 0.2) ** 3)
-    p = 1 / (1 + np.exp(-leaves["log_odds"].astype(float)))
-    h = -(p * np.log(p) + (1 - p) * np.log(1 - p))
-    low, high = np.log(0.12 / 0.88), np.log(0.97 / 0.03)
-    clamped = (leaves["log_odds"] <= low + 1e-5) | (leaves["log_odds"] >= high - 1e-5)
-    assert len(leaves) > 100
-    assert (cells >= 1).all()
-    assert 0 < h[~clamped].max() <= np.log(2)
+def test_the_map_and_the_cloud_are_what_the_planner_believed_last():
+    kept = {}
+
+    def plan(belief, history):
+        kept.update(odds=belief.log_odds.copy(), cloud=belief.cloud.copy(), nat=belief.entropy_nat)
+        kept.update(low_m=belief.origin_m, voxel_m=belief.resolution_m)
+        return None if len(history) == 3 else belief.valid(belief.sample())
+
+    run = gnbv.run("smoke", planner=plan)
+    odds = np.zeros_like(kept["odds"])
+    for *center_m, size_m, log_odds in run.map.tolist():
+        first = (np.array(center_m) - 0.5 * size_m - kept["low_m"]) / kept["voxel_m"]
+        count = round(size_m / kept["voxel_m"])  # a leaf may begin below the map
+        x, y, z = (slice(max(low, 0), low + count) for low in np.rint(first).astype(int))
+        assert not odds[z, y, x].any()
+        odds[z, y, x] = log_odds
+    assert len(run.map) > 100 and np.array_equal(odds, kept["odds"])
+    assert np.array_equal(np.unique(run.cloud, axis=0), np.unique(kept["cloud"], axis=0))
+    assert run.summary["entropy_nat"]["final"] == kept["nat"]
 
 
 def test_a_picture_and_a_report_are_drawn(smoke, tmp_path):
