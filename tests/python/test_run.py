@@ -68,7 +68,8 @@ def test_the_map_and_the_cloud_are_what_the_planner_believed_last():
     assert run.summary["entropy_nat"]["final"] == kept["nat"]
 
 
-def test_a_picture_and_a_report_are_drawn(smoke, tmp_path):
+def test_a_picture_and_a_report_are_drawn(smoke, tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", None)  # as a daemon has it
     pictures = smoke.render(out=tmp_path / "path.png")
     assert [p.read_bytes()[:4] for p in pictures] == [b"\x89PNG"]
     assert b"<html" in smoke.report(tmp_path / "r.html").read_bytes()[:2000]

@@ -51,7 +51,8 @@ def call(*arguments: str) -> str:
         raise BadInput(message)
     if child.returncode != 0:
         raise Failed(message)
-    sys.stderr.write(errors)
+    if sys.stderr is not None:
+        sys.stderr.write(errors)
     return out
 
 

@@ -47,7 +47,9 @@ def source_of(function: UserFunction) -> str:
         raise BadInput(f"utility {label}: its source text cannot be had ({error})") from error
     start = re.search(r"^def ", text, re.MULTILINE)
     if start is None:
-        raise BadInput(f"utility {label}: expected a function made by `def`")
+        raise BadInput(
+            f"utility {label}: expected a function made by `def`, and no text left of that"
+        )
     return text[start.start() :]
 
 
