@@ -48,6 +48,7 @@ using Stage = AutoFlight::Stage;
 
 constexpr double kAcceptance_m = 2.0;                // NAV_ACC_RAD
 constexpr double kYawRate_rad_s = deg_to_rad(45.0);  // MPC_YAWRAUTO_MAX
+constexpr double kLead_m = 0.1;         // before its trajectory: more than hovering makes
 constexpr double kHomeArrival_m = 0.5;  // of RTL, before it descends and still comes nearer
 
 /// MPC_Z_V_AUTO_DN far above the ground, MPC_LAND_SPEED near it.
@@ -128,9 +129,13 @@ void move_trajectory(AutoFlight& flight, const CommanderParameters& parameters,
                      const Vec3& p_world_m, double dt_s) {
   const double height_m = p_world_m.z() - flight.home_world_m.z();
   const Vec3 wanted = wanted_velocity(flight, parameters, height_m);
-  // the trajectory waits for a vehicle that is left behind
-  const double error_m = (each(flight, &Motion::position) - p_world_m).head<2>().norm();
-  const double pace = std::max(0.0, 1.0 - error_m / parameters.path_error_max_m);
+  // the trajectory waits for a vehicle that is left behind; if it did for one that is ahead, which
+  // waits for it in turn, neither would arrive (PositionSmoothing.cpp)
+  const Vec2 lead_m = (p_world_m - each(flight, &Motion::position)).head<2>();
+  const Vec2 v_m_s = each(flight, &Motion::speed).head<2>();
+  const bool is_ahead = lead_m.dot(v_m_s) > kLead_m * v_m_s.norm();
+  const double pace =
+      is_ahead ? 1.0 : std::max(0.0, 1.0 - lead_m.norm() / parameters.path_error_max_m);
   const AxisLimits level = level_limits(parameters);
   flight.axes =
       advance_together(flight.axes, {wanted.x(), wanted.y(), wanted.z()},

@@ -132,6 +132,20 @@ TEST(Px4Modes, ReturnClimbsFliesHomeAndLands) {
   EXPECT_EQ(quadrotor.px4().intention(), NavState::offboard);  // RTL would prevent arming
 }
 
+TEST(Px4Modes, AutoModesArriveHoweverFarAndFast) {
+  for (const double cruise_m_s : {5.0, 20.0}) {  // the latter above MPC_XY_VEL_MAX
+    Quadrotor quadrotor = airborne(with({.cruise_speed_m_s = cruise_m_s}));
+    const Vec3 goal(200, 0, 10);
+    ASSERT_EQ(quadrotor.px4().reposition(goal, 0.0, 0.0), Ack::accepted);
+    wait(quadrotor, 60.0);
+    EXPECT_LT((place(quadrotor) - goal).norm(), 0.1) << cruise_m_s;
+  }
+  Quadrotor quadrotor = airborne();
+  stream(quadrotor, fly_at(Vec3(12, 0, 0)), 10.0);
+  ASSERT_EQ(quadrotor.px4().set_mode(NavState::land), Ack::accepted);
+  EXPECT_GT(ticks_until(quadrotor, 60.0, [&] { return !quadrotor.px4().is_armed(); }), 0);
+}
+
 TEST(Px4Modes, TerminationStopsTheMotorsForGood) {
   Quadrotor quadrotor = airborne();
   ASSERT_EQ(quadrotor.px4().set_mode(NavState::terminate), Ack::accepted);
