@@ -210,22 +210,6 @@ struct Endpoint::Handler {
     }
   }
 
-  /// The vehicle asks for integers; the other ways round are as good.
-  void operator()(const MissionRequest& asked) const {
-    (*this)(MissionRequestInt{asked.number, asked.target_system, asked.target_component,
-                              asked.mission_type});
-  }
-
-  void operator()(const MissionItem& item) const {
-    const auto e7 = [](float deg) {
-      return static_cast<std::int32_t>(
-          std::lround(1e7 * std::clamp(static_cast<double>(deg), -200.0, 200.0)));
-    };
-    (*this)(MissionItemInt{item.param, e7(item.x), e7(item.y), item.z, item.seq, item.command,
-                           item.target_system, item.target_component, item.frame, item.current,
-                           item.autocontinue, item.mission_type});
-  }
-
   void operator()(const MissionSetCurrent& asked) const {
     if (vehicle.px4().set_current_step(asked.seq)) {
       endpoint.send(*said_of(MissionCurrent::kInfo.id, endpoint.report_of(vehicle)));

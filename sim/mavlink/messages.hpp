@@ -134,28 +134,20 @@ struct GpsGlobalOrigin {
   GlobalPlace place{};
 };
 
-/// x and y: 1e-7 deg, or 1e-4 m.
-struct MissionItemInt {
-  static constexpr MessageInfo kInfo = {73, 38, 37, 38};
+/// x and y: 1e-7 deg, or 1e-4 m; degrees in the floats of old clients.
+template <std::uint32_t id, std::uint8_t crc_extra, typename Coordinate>
+struct MissionItemIn {
+  static constexpr MessageInfo kInfo = {id, crc_extra, 37, 38};
   std::array<float, 4> param{};
-  std::int32_t x = 0, y = 0;
+  Coordinate x = 0, y = 0;
   float z = 0;
   std::uint16_t seq = 0, command = 0;  // MAV_CMD
   std::uint8_t target_system = 0, target_component = 0;
   std::uint8_t frame = 0, current = 0, autocontinue = 0;  // MAV_FRAME
   std::uint8_t mission_type = 0;
 };
-
-/// The same of old clients, x and y in degrees.
-struct MissionItem {
-  static constexpr MessageInfo kInfo = {39, 254, 37, 38};
-  std::array<float, 4> param{};
-  float x = 0, y = 0, z = 0;
-  std::uint16_t seq = 0, command = 0;
-  std::uint8_t target_system = 0, target_component = 0;
-  std::uint8_t frame = 0, current = 0, autocontinue = 0;
-  std::uint8_t mission_type = 0;
-};
+using MissionItem = MissionItemIn<39, 254, float>;
+using MissionItemInt = MissionItemIn<73, 38, std::int32_t>;
 
 struct MissionSetCurrent {
   static constexpr MessageInfo kInfo = {41, 28, 4, 4};

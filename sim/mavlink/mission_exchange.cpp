@@ -28,6 +28,7 @@ constexpr std::array<std::uint16_t, 19> kWithoutEffect = {195,  196,  197,  201,
                                                           2000, 2001, 2003, 2500, 2501};
 
 constexpr std::uint8_t kFlightPlan = 0, kAllTypes = 255;  // MAV_MISSION_TYPE
+constexpr std::int32_t kNoCoordinate = std::numeric_limits<std::int32_t>::max();
 constexpr double kRemind_s = 0.5;
 constexpr double kGiveUp_s = 5.0;
 
@@ -39,9 +40,9 @@ MissionResult invalid(int parameter) {
 
 /// Where the item is; NaN what it leaves open: a takeoff or a landing without a place (0, 0).
 std::variant<Vec3, MissionResult> place_in(const MissionItemInt& item) {
-  constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
   if (!is_global(item.frame)) return MissionResult::unsupported_frame;
-  const bool is_open = (item.x == kNone && item.y == kNone) || (item.x == 0 && item.y == 0);
+  const bool is_open =
+      (item.x == kNoCoordinate && item.y == kNoCoordinate) || (item.x == 0 && item.y == 0);
   if (std::abs(std::int64_t{item.x}) > 900'000'000 && !is_open) return invalid(5);
   if (std::abs(std::int64_t{item.y}) > 1'800'000'000 && !is_open) return invalid(6);
   Vec3 p_world_m = world_of_place(1e-7 * item.x, 1e-7 * item.y, static_cast<double>(item.z));
@@ -94,6 +95,14 @@ MissionExchange::Answer acknowledge(MissionResult result, std::uint8_t type,
   return {acknowledged(result, type, context.system_id, context.component_id)};
 }
 
+/// One kind of item as the other: NaN is no coordinate.
+template <typename To>
+To converted(const auto& item, const auto& coordinate_of) {
+  return {item.param, coordinate_of(item.x), coordinate_of(item.y), item.z,
+          item.seq,   item.command,          item.target_system,    item.target_component,
+          item.frame, item.current,          item.autocontinue,     item.mission_type};
+}
+
 }  // namespace
 
 std::variant<MissionStep, MissionResult> step_of(const MissionItemInt& item) {
@@ -128,12 +137,22 @@ std::variant<MissionStep, MissionResult> step_of(const MissionItemInt& item) {
 
 MissionExchange::Answer MissionExchange::request_next(double now_s) {
   upload_->asked_s = now_s;
-  return {packed(MissionRequestInt{static_cast<std::uint16_t>(upload_->items.size()),
-                                   upload_->system_id, upload_->component_id, kFlightPlan})};
+  Frame request = packed(MissionRequestInt{static_cast<std::uint16_t>(upload_->items.size()),
+                                           upload_->system_id, upload_->component_id, kFlightPlan});
+  if (upload_->asks_in_floats) request.message_id = MissionRequest::kInfo.id;  // all else is alike
+  return {request};
+}
+
+bool MissionExchange::is_anothers_turn(const Context& context) const {
+  return upload_ &&
+         (upload_->system_id != context.system_id || upload_->component_id != context.component_id);
 }
 
 MissionExchange::Answer MissionExchange::receive(const MissionCount& asked,
                                                  const Context& context) {
+  if (is_anothers_turn(context)) {
+    return acknowledge(MissionResult::error, asked.mission_type, context);
+  }
   if (asked.number == 0) {
     return receive(MissionClearAll{.mission_type = asked.mission_type}, context);
   }
@@ -153,8 +172,14 @@ MissionExchange::Answer MissionExchange::receive(const MissionCount& asked,
 
 MissionExchange::Answer MissionExchange::receive(const MissionItemInt& item,
                                                  const Context& context) {
+  if (is_anothers_turn(context)) {
+    return acknowledge(MissionResult::error, item.mission_type, context);
+  }
   if (item.mission_type != kFlightPlan || !upload_) {
-    return acknowledge(MissionResult::invalid_sequence, item.mission_type, context);
+    const std::vector<MissionItemInt>& mission = context.aboard.mission;
+    const bool is_last_again = !mission.empty() && payload_of(item) == payload_of(mission.back());
+    return acknowledge(is_last_again ? MissionResult::accepted : MissionResult::invalid_sequence,
+                       item.mission_type, context);
   }
   if (item.seq != upload_->items.size()) return {};  // one that came twice, or too early
   const auto read = step_of(item);
@@ -170,6 +195,15 @@ MissionExchange::Answer MissionExchange::receive(const MissionItemInt& item,
   context.px4.set_mission(std::move(upload_->steps));
   upload_.reset();
   return acknowledge(MissionResult::accepted, kFlightPlan, context);
+}
+
+MissionExchange::Answer MissionExchange::receive(const MissionItem& item, const Context& context) {
+  const auto e7_of = [](float deg) {
+    if (std::isnan(deg)) return kNoCoordinate;
+    return static_cast<std::int32_t>(
+        std::lround(1e7 * std::clamp(static_cast<double>(deg), -200.0, 200.0)));
+  };
+  return receive(converted<MissionItemInt>(item, e7_of), context);
 }
 
 MissionExchange::Answer MissionExchange::receive(const MissionRequestList& asked,
@@ -192,6 +226,18 @@ MissionExchange::Answer MissionExchange::receive(const MissionRequestInt& asked,
   return {packed(item)};
 }
 
+MissionExchange::Answer MissionExchange::receive(const MissionRequest& asked,
+                                                 const Context& context) const {
+  Answer answer = receive(MissionRequestInt{asked.number, asked.target_system,
+                                            asked.target_component, asked.mission_type},
+                          context);
+  if (answer[0].message_id != MissionItemInt::kInfo.id) return answer;
+  const auto deg_of = [](std::int32_t e7) {
+    return e7 == kNoCoordinate ? std::nanf("") : static_cast<float>(1e-7 * e7);
+  };
+  return {packed(converted<MissionItem>(message_of<MissionItemInt>(answer[0].payload), deg_of))};
+}
+
 MissionExchange::Answer MissionExchange::receive(const MissionClearAll& asked,
                                                  const Context& context) {
   if (asked.mission_type == kFlightPlan || asked.mission_type == kAllTypes) {
@@ -202,14 +248,14 @@ MissionExchange::Answer MissionExchange::receive(const MissionClearAll& asked,
   return acknowledge(MissionResult::accepted, asked.mission_type, context);
 }
 
-MissionExchange::Answer MissionExchange::receive(const MissionAck& told,
-                                                 const Context& /*context*/) {
-  if (told.result != 0) upload_.reset();  // the client gives up
+MissionExchange::Answer MissionExchange::receive(const MissionAck& told, const Context& context) {
+  if (told.result != 0 && !is_anothers_turn(context)) upload_.reset();  // the client gives up
   return {};
 }
 
 MissionExchange::Answer MissionExchange::remind(double now_s) {
   if (!upload_ || now_s - upload_->asked_s < kRemind_s) return {};
+  upload_->asks_in_floats = !upload_->asks_in_floats;  // which is all that old clients know
   if (now_s - upload_->heard_s < kGiveUp_s) return request_next(now_s);
   const Upload over = *std::exchange(upload_, std::nullopt);
   return {acknowledged(MissionResult::cancelled, kFlightPlan, over.system_id, over.component_id)};

@@ -14,6 +14,7 @@ namespace gnbv::mavlink {
 /// MAV_MISSION_RESULT.
 enum class MissionResult : std::uint8_t {
   accepted = 0,
+  error = 1,
   unsupported_frame = 2,
   unsupported = 3,
   no_space = 4,
@@ -42,16 +43,19 @@ class MissionExchange {
   using Answer = std::vector<Frame>;
 
   /// An upload of so many items begins. The mission changes when all of them have come and been
-  /// found good, and not before.
+  /// found good, and not before. Meanwhile nobody else of this link uploads.
   Answer receive(const MissionCount& asked, const Context& context);
+  /// The last item again is accepted again: the client did not hear that it was.
   Answer receive(const MissionItemInt& item, const Context& context);
+  Answer receive(const MissionItem& item, const Context& context);
   Answer receive(const MissionRequestList& asked, const Context& context) const;
-  /// MISSION_REQUEST is answered likewise, by MISSION_ITEM_INT.
   Answer receive(const MissionRequestInt& asked, const Context& context) const;
+  /// As PX4, who asks in floats is answered by MISSION_ITEM.
+  Answer receive(const MissionRequest& asked, const Context& context) const;
   Answer receive(const MissionClearAll& asked, const Context& context);
   Answer receive(const MissionAck& told, const Context& context);
-  /// The item that is waited for is asked for again after a while, and the upload given up after
-  /// 5 s without one.
+  /// The item that is waited for is asked for again after a while, by turns in integers and in
+  /// floats, and the upload given up after 5 s without one.
   Answer remind(double now_s);
 
  private:
@@ -61,7 +65,9 @@ class MissionExchange {
     std::vector<MissionItemInt> items = {};
     std::vector<MissionStep> steps = {};
     double heard_s, asked_s;
+    bool asks_in_floats = false;
   };
+  bool is_anothers_turn(const Context& context) const;
   Answer request_next(double now_s);
 
   std::optional<Upload> upload_;

@@ -46,9 +46,12 @@ class Session {
 
   template <typename Message>
   void send(const Message& message) {
-    endpoint_.receive(write_frame({sequence_++, 255, 190, Message::kInfo.id, payload_of(message)}),
-                      kClient, now_s(), vehicle_);
+    endpoint_.receive(
+        write_frame({sequence_++, sender_, 190, Message::kInfo.id, payload_of(message)}), kClient,
+        now_s(), vehicle_);
   }
+  /// System of what is sent from now on.
+  void set_sender(std::uint8_t system_id) { sender_ = system_id; }
   void command(std::uint16_t id, float param1 = 0, float param2 = 0) {
     send(CommandLong{
         .param = {param1, param2}, .command = id, .target_system = 1, .target_component = 1});
@@ -141,6 +144,7 @@ class Session {
   Aboard aboard_;
   Endpoint endpoint_;
   std::uint8_t sequence_ = 0;
+  std::uint8_t sender_ = 255;
   std::uint64_t frames_heard_ = 0;
   std::map<std::uint32_t, std::vector<Frame>> heard_;
 };
