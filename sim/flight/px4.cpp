@@ -222,6 +222,7 @@ bool Px4::can_run_now(NavState mode) const {
 
 void Px4::disarm() {
   is_armed_ = false;
+  if (land_.is_landed) set_home();  // a takeoff may be asked for before the next arming
   intention_ = intention_after_disarming_;
   say(kSeverityInfo, "Disarmed");
   update_mode();

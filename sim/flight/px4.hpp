@@ -81,8 +81,8 @@ class Px4 {
   bool is_taking_off() const;  // in the air; so is the next
   bool is_landing() const;
   bool is_in_failsafe() const { return is_in_failsafe_; }
-  /// The ground where it was armed last; before that where it stood. What is above home is above
-  /// this; of a vehicle that began in the air, above z = 0.
+  /// The ground where it stands or, once armed, stood then. What is above home is above this; of a
+  /// vehicle that began in the air, above z = 0.
   const Vec3& home_world_m() const { return home_world_m_; }
   const UploadedMission& mission() const { return mission_; }
   /// Steps done since the last call.

@@ -296,6 +296,28 @@ TEST(MavlinkMission, HeightsAboveHomeCountFromTheGroundThereAndThoseAboveTheSeaD
   EXPECT_FALSE(session.vehicle().px4().is_armed());
 }
 
+TEST(MavlinkMission, ATakeoffAskedForBeforeArmingCountsFromTheGroundThere) {
+  World slope = level_ground(0);  // rises by a tenth to the east
+  for (Vec3f& vertex : slope.terrain.vertices_m) vertex.z() = 0.1F * vertex.x();
+  Session session({}, std::nullopt, {}, slope);
+  const auto take_off = [&](float alt_m) {
+    session.send(CommandLong{.param = {0, 0, 0, 0, 0, 0, alt_m},
+                             .command = kTakeoff,
+                             .target_system = 1,
+                             .target_component = 1});
+    session.command(kArmDisarm, 1);
+    session.step_for(15);
+  };
+  take_off(5);
+  ASSERT_EQ(session.vehicle().px4().reposition({20, 0, 5}, 0, 0), Ack::accepted);
+  session.step_for(15);
+  session.command(kLand);
+  session.step_for(20);
+  ASSERT_FALSE(session.vehicle().px4().is_armed());
+  take_off(5);
+  EXPECT_NEAR(session.vehicle().state().T_world_body.translation().z(), 5, 0.2);
+}
+
 TEST(MavlinkMission, WithoutOneMissionModeDoesNotArm) {
   Session session;
   session.send(SetMode{.custom_mode = custom_mode_of(NavState::mission), .target_system = 1});
