@@ -75,13 +75,9 @@ void Quadrotor::land() {
   px4_.set_mode(NavState::land);
 }
 
-double Quadrotor::power_w() const {
-  return gnbv::power_w(config_.power, vehicle_.thrust_n(),
-                       vehicle_.state().v_world_m_s - wind_world_m_s_);
-}
-
 void Quadrotor::step() {
   const VehicleState truth = vehicle_.state();
+  const bool was_armed = px4_.is_armed();  // its rotors stand still otherwise, in whatever wind
   wind_world_m_s_ = wind_.step(truth.T_world_body.translation(), truth.v_world_m_s);
   bool is_first = true;
   vehicle_.step(
@@ -95,7 +91,10 @@ void Quadrotor::step() {
   felt_world_m_s2.z() += config_.airframe.gravity_m_s2;
   specific_force_body_m_s2_ = after.T_world_body.linear().transpose() * felt_world_m_s2;
   estimate_ = estimator_.step(after);
-  energy_j_ += kTick_s * power_w();
+  power_w_ = !was_armed ? 0.0
+                        : gnbv::power_w(config_.power, vehicle_.thrust_n(),
+                                        after.v_world_m_s - wind_world_m_s_);
+  energy_j_ += kTick_s * power_w_;
 }
 
 }  // namespace gnbv

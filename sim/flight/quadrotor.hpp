@@ -32,7 +32,7 @@ class Quadrotor final : public Flight {
   bool has_collided() const override;
   double energy_wh() const override { return energy_j_ / kJoulesPerWattHour; }
   /// Electrical power at the last tick.
-  double power_w() const;
+  double power_w() const { return power_w_; }
   /// What an accelerometer at the centre of mass felt in the last tick.
   const Vec3& specific_force_body_m_s2() const { return specific_force_body_m_s2_; }
 
@@ -54,6 +54,7 @@ class Quadrotor final : public Flight {
   StateEstimator estimator_;
   VehicleState estimate_;
   Px4 px4_;
+  double power_w_ = 0.0;
   double energy_j_ = 0.0;
   Vec3 specific_force_body_m_s2_;
 };
