@@ -139,13 +139,17 @@ void check_wind(const Scenario& s, Problems& out) {
   if (!(calm_command > 0.0 && calm_command < 1.0)) return;  // check_quadrotor() said so
   const AutopilotParameters& autopilot = s.vehicle.autopilot;
   const HoverTrim trim = hover_trim(s.vehicle, wind_m_s);
-  require(trim.tilt_rad < autopilot.tilt_max_rad && trim.command > autopilot.thrust_min &&
-              trim.command < autopilot.thrust_max,
-          out, {"wind.mean_m_s", kAutopilot + "tilt_max_deg", kAutopilot + "thrust_max"},
-          "hovering in a wind of {:.3g} m/s takes a tilt of {:.3g} deg and the command {:.3g}; the "
-          "autopilot allows less than {:.3g} deg, and commands from {} to {}",
-          wind_m_s.norm(), rad_to_deg(trim.tilt_rad), trim.command,
-          rad_to_deg(autopilot.tilt_max_rad), autopilot.thrust_min, autopilot.thrust_max);
+  require(
+      trim.tilt_rad < autopilot.tilt_max_rad && trim.command > autopilot.thrust_min &&
+          trim.command < autopilot.thrust_max,
+      out, {"wind.mean_m_s", kAutopilot + "tilt_max_deg", kAutopilot + "thrust_max"},
+      "hovering in a wind of {:.3g} m/s takes {}; the autopilot allows less than {:.3g} deg, and "
+      "commands from {} to {}",
+      wind_m_s.norm(),
+      std::isfinite(trim.command) ? fmt::format("a tilt of {:.3g} deg and the command {:.3g}",
+                                                rad_to_deg(trim.tilt_rad), trim.command)
+                                  : "more thrust than the rotors have in it",
+      rad_to_deg(autopilot.tilt_max_rad), autopilot.thrust_min, autopilot.thrust_max);
 }
 
 void check_estimate(const VehicleConfig& vehicle, Problems& out) {

@@ -122,7 +122,7 @@ TEST(Problems, OfValuesThatDoNotGoTogether) {
            {{"vehicle.kind=ideal", "wind.gust_w20_m_s=5"},
             "an ideal vehicle moves exactly as commanded"},
            {{"wind={mean_m_s: [12, -9, 0], gust_w20_m_s: 15.4}"}, ""},
-           {{"wind.mean_m_s=[0, 40, 0]"}, "hovering in a wind of 40 m/s takes a tilt of "},
+           {{"wind.mean_m_s=[0, 40, 0]"}, "hovering in a wind of 40 m/s takes more thrust than"},
            {{"wind.mean_m_s=[0, 40, 0]"}, "the autopilot allows less than 45 deg"},
            // only satellites are lost, and one outage after another
            {{"vehicle.estimate={model: gnss, outages: [{start_s: 5, duration_s: 10}, "
