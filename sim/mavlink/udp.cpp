@@ -55,8 +55,7 @@ std::uint32_t resolve_host(const std::string& host, const std::string& url) {
 Address address_in(const std::string& url, std::string_view scheme) {
   const std::size_t colon = url.rfind(':');
   if (colon < scheme.size()) {
-    throw BadInput(
-        fmt::format("'{}': expected {}HOST:PORT, such as {}127.0.0.1:14540", url, scheme, scheme));
+    throw BadInput(fmt::format("'{}': expected {}HOST:PORT", url, scheme));
   }
   const std::string_view port_text = std::string_view(url).substr(colon + 1);
   Address address;
@@ -87,11 +86,15 @@ Meeting resolve_meeting(const std::string& url) {
                     "udpin://HOST:PORT to listen at",
                     url));
   }
-  const Address address = address_in(url, "udpout://");
+  return {resolve_partner(url, "udpout://"), true};
+}
+
+Address resolve_partner(const std::string& url, std::string_view scheme) {
+  const Address address = address_in(url, scheme);
   if (address.host == INADDR_ANY || address.port == 0) {
     throw BadInput(fmt::format("{}: nobody waits there; name the client's own address", url));
   }
-  return {address, true};
+  return address;
 }
 
 Address bound_for(const Meeting& meeting) {

@@ -27,8 +27,11 @@ struct Meeting {
 
 /// "udpout://HOST:PORT" is spoken to, "udp://" and "udpin://" are listened at. HOST may be left out
 /// and is then the loopback, never all interfaces; PORT 0 means any free one. Throws BadInput
-/// naming the URL, also where nobody can be spoken to: host 0.0.0.0 or port 0.
+/// naming the URL, as resolve_partner() does.
 Meeting resolve_meeting(const std::string& url);
+/// Where somebody waits, behind the scheme that the URL begins with. Throws BadInput naming it,
+/// also where nobody can be spoken to: host 0.0.0.0 or port 0.
+Address resolve_partner(const std::string& url, std::string_view scheme);
 /// What the vehicle's socket binds for it: the address itself, or any free port; the loopback's
 /// when the client is on this machine.
 Address bound_for(const Meeting& meeting);

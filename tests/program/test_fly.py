@@ -103,10 +103,14 @@ def test_is_hit_by_what_moves_when_it_comes(gnbv):
 
 def test_speaks_first_to_where_its_client_waits(run, client):
     url = f'udpout://127.0.0.1:{client.getsockname()[1]}'
-    end = run(f'fly smoke --speed 5 --duration 5 --mavlink {url}')
+    end = run(f'fly smoke --speed 5 --duration 5 --mavlink {url} --set vehicle.estimate.model=gnss')
     assert end.err.startswith(f'gnbv: speaking to {url} from udp://127.0.0.1:')
     first = client.recv(2048)
     assert first[0] == 0xfd and first[7:10] == b'\0\0\0', 'a heartbeat'
+    while (told := client.recv(2048))[7] != 32:
+        pass
+    place_m = struct.unpack_from('<3f', told, 14)
+    assert math.hypot(*place_m) < 0.1, 'local NED counts from where it believes to stand'
 
 
 def test_several_clients_hear_the_vehicle_under_its_number(run):
@@ -263,10 +267,11 @@ def test_a_flood_does_not_stop_time(flying, client, longest):
     'smoke --mavlink udpout://127.0.0.1:14540 --mavlink udpout://localhost:14540', 'smoke --mavlink udp://8.8.8.8:14540',
     'smoke --mavlink udp://no-such-host.invalid:14540', f'{PORT} --speed 0', f'{PORT} --duration 0',
     f'{PORT} --frames /proc/none', f'{PORT} --video udp://127.0.0.1:5600',
-    f'{PORT} --video rtp://127.0.0.1:0', f'{PORT} --frames f --frames-hz 0',
+    f'{PORT} --video rtp://127.0.0.1:0', f'{PORT} --video rtp://nowhere', f'{PORT} --frames f --frames-hz 0',
     f'{PORT} --set vehicle.kind=ideal', f'{PORT} --set structure.ground=false', 'no-such-scenario',
     # the tower's wall stands at x = 0.04: the start is above it, the ground below is in it
     f"{PORT} --set 'start={{position_m: [0.04, 0.12, 4], jitter_m: [0, 0, 0]}}'"])
 def test_what_cannot_be_served_is_bad_input(run, client, words):
     words = words.replace('{taken}', str(client.getsockname()[1]))
-    assert 'listening' not in run(f'fly {words}', code=2).err
+    error = run(f'fly {words}', code=2).err
+    assert 'listening' not in error and ('--video' not in words or 'udpout' not in error)

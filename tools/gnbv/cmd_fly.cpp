@@ -168,14 +168,13 @@ std::unique_ptr<CameraStream> stream_of(const FlyOptions& options, const Scenari
   for (const CameraConfig& camera : scenario.cameras) cameras.push_back(make_camera_model(camera));
   if (!stream.video_url.empty() && !cameras.empty()) {
     const CameraModel& first = cameras.front();
-    const mavlink::Meeting to =
-        mavlink::resolve_meeting("udpout://" + stream.video_url.substr(kRtp.size()));
-    aboard.video = mavlink::VideoStream{.camera = first.config.name,
-                                        .width_px = first.config.width_px,
-                                        .height_px = first.config.height_px,
-                                        .rate_hz = stream.rate_hz,
-                                        .fov_x_deg = rad_to_deg(first.sight_rad.sizes().x()),
-                                        .port = to.address.port};
+    aboard.video =
+        mavlink::VideoStream{.camera = first.config.name,
+                             .width_px = first.config.width_px,
+                             .height_px = first.config.height_px,
+                             .rate_hz = stream.rate_hz,
+                             .fov_x_deg = rad_to_deg(first.sight_rad.sizes().x()),
+                             .port = mavlink::resolve_partner(stream.video_url, kRtp).port};
   }
   return std::make_unique<CameraStream>(scene, std::move(cameras), std::move(stream));
 }
@@ -213,7 +212,7 @@ void fly(const FlyOptions& options) {
   mavlink::Aboard aboard{.system_id = static_cast<std::uint8_t>(scenario.vehicle.system_id),
                          .battery_wh = scenario.vehicle.power.battery_wh};
   if (options.local_origin == "home") {
-    aboard.origin_world_m = vehicle.state().T_world_body.translation();
+    aboard.origin_world_m = vehicle.estimate().T_world_body.translation();
   }
   const std::unique_ptr<CameraStream> cameras = stream_of(options, scenario, scene, aboard);
   Stations stations;
