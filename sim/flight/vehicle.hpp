@@ -30,7 +30,6 @@ class RigidVehicle {
   void step(const RateControl& control, const Vec3& wind_world_m_s = Vec3::Zero());
 
   const VehicleState& state() const { return state_; }
-  const RotorSpeeds& rotor_speeds_rad_s() const { return speeds_rad_s_; }
   /// Sum of the rotors' thrust during the last tick.
   double thrust_n() const { return thrust_n_; }
   /// Whether the hull has touched the structure or an obstacle since the start.

@@ -45,6 +45,7 @@ Vec3 world_from_level_frd(const Vec3& v_frd, double yaw_world_rad) {
 /// What is asked of yaw is added, and all of it has to be in bounds and control something.
 template <typename Message>
 std::variant<Setpoint, Refusal> checked(Setpoint setpoint, const Message& message) {
+  if ((message.type_mask & kForce) != 0) return Refusal{"setpoint of force not supported"};
   // an infinite yaw is asked about before it is wrapped: that makes NaN, "not controlled", of it
   const double yaw_ned_rad = unless_ignored(message.yaw_rad, message.type_mask, kIgnoreYaw);
   setpoint.yaw_rad = swap_yaw_enu_ned(yaw_ned_rad);
@@ -100,7 +101,6 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& me
   if (!is_global(message.coordinate_frame)) {
     return Refusal{fmt::format("setpoint frame {} unsupported", message.coordinate_frame)};
   }
-  if ((mask & kForce) != 0) return Refusal{"setpoint of force not supported"};
   Setpoint setpoint;
   const Vec3 p_world_m =
       world_of_place(1e-7 * message.lat_deg_e7, 1e-7 * message.lon_deg_e7,
@@ -118,8 +118,6 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetLocalNed& mes
   if (message.coordinate_frame != kFrameLocalNed && message.coordinate_frame != kFrameBodyNed) {
     return Refusal{fmt::format("setpoint frame {} unsupported", message.coordinate_frame)};
   }
-  if ((mask & kForce) != 0) return Refusal{"setpoint of force not supported"};
-
   const Vec3 v_m_s = unless_ignored(message.v_m_s, mask, kIgnoreVx);
   const Vec3 a_m_s2 = unless_ignored(message.a_m_s2, mask, kIgnoreAx);
   Setpoint setpoint;

@@ -57,6 +57,8 @@ std::variant<Setpoint, Refusal> setpoint_of(const SetPositionTargetGlobalInt& me
 constexpr double kPositionMax_m = 1e6;
 inline bool is_in_bounds(const Vec3& p_m) { return !(p_m.array().abs() > kPositionMax_m).any(); }
 
+/// Of an integer coordinate that leaves open where.
+constexpr std::int32_t kNoCoordinate = std::numeric_limits<std::int32_t>::max();
 /// MAV_FRAME: on the globe above the sea or above home, in floats or integers.
 constexpr bool is_global(std::uint8_t frame) {
   return frame == 0 || frame == 3 || frame == 5 || frame == 6;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "sim/mavlink/border.hpp"
@@ -79,9 +78,8 @@ struct Endpoint::Handler {
 
   /// World ENU; nothing in other frames than those of border.hpp and LOCAL_NED.
   std::optional<Vec3> place_in(const CommandInt& asked) const {
-    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
     const auto number = [](std::int32_t value, double unit) {
-      return value == kNone ? kNotControlled : unit * value;
+      return value == kNoCoordinate ? kNotControlled : unit * value;
     };
     if (is_global(asked.frame)) {
       return world_of_place(number(asked.x, 1e-7), number(asked.y, 1e-7),

@@ -28,7 +28,6 @@ constexpr std::array<std::uint16_t, 19> kWithoutEffect = {195,  196,  197,  201,
                                                           2000, 2001, 2003, 2500, 2501};
 
 constexpr std::uint8_t kFlightPlan = 0, kAllTypes = 255;  // MAV_MISSION_TYPE
-constexpr std::int32_t kNoCoordinate = std::numeric_limits<std::int32_t>::max();
 constexpr double kRemind_s = 0.5;
 constexpr double kGiveUp_s = 5.0;
 
@@ -98,9 +97,9 @@ MissionExchange::Answer acknowledge(MissionResult result, std::uint8_t type,
 /// One kind of item as the other: NaN is no coordinate.
 template <typename To>
 To converted(const auto& item, const auto& coordinate_of) {
-  return {item.param, coordinate_of(item.x), coordinate_of(item.y), item.z,
-          item.seq,   item.command,          item.target_system,    item.target_component,
-          item.frame, item.current,          item.autocontinue,     item.mission_type};
+  return To{item.param, coordinate_of(item.x), coordinate_of(item.y), item.z,
+            item.seq,   item.command,          item.target_system,    item.target_component,
+            item.frame, item.current,          item.autocontinue,     item.mission_type};
 }
 
 }  // namespace

@@ -216,25 +216,6 @@ def test_ground_stations_are_answered_in_order(fly, connected):
     assert not any(summary["dropped"].values()) and summary["ignored"] == 0
 
 
-def test_telemetry_comes_at_the_rates_asked(fly, connected):
-    vehicle = fly()
-    client = connected(f"udpin:127.0.0.1:{vehicle.port}")
-    asked = {"ATTITUDE": 20.0, "LOCAL_POSITION_NED": 5.0, "GLOBAL_POSITION_INT": -1.0}
-    for kind, rate_hz in asked.items():
-        message_id = getattr(mavlink, f"MAVLINK_MSG_ID_{kind}")
-        interval_us = 1e6 / rate_hz if rate_hz > 0 else -1
-        assert client.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, message_id, interval_us) == 0
-    heard = dict.fromkeys(asked, 0)
-    begin = client.until("ATTITUDE")
-    while (last := client.until(list(asked))).time_boot_ms < begin.time_boot_ms + 5000:
-        heard[last.get_type()] += 1
-    print(heard)
-    # time that a late machine gives up is missing from the simulation's clock, not from ours
-    assert 80 <= heard["ATTITUDE"] <= 160 and 20 <= heard["LOCAL_POSITION_NED"] <= 40
-    assert heard["GLOBAL_POSITION_INT"] <= 1, "one may have been under way"
-    vehicle.end()
-
-
 def test_a_camera_says_where_its_video_goes(fly, connected):
     vehicle = fly("--video", f"rtp://127.0.0.1:{free_port()}")
     client = connected(f"udpin:127.0.0.1:{vehicle.port}")
@@ -250,21 +231,6 @@ def test_a_camera_says_where_its_video_goes(fly, connected):
     assert (video.framerate, video.resolution_h) == (10.0, camera.resolution_h)
     assert (video.type, video.encoding) == (mavlink.VIDEO_STREAM_TYPE_RTPUDP,
                                             mavlink.VIDEO_STREAM_ENCODING_H264)
-
-
-def test_nobody_else_is_heard(fly, connected):
-    vehicle = fly()
-    client = connected(f"udpin:127.0.0.1:{vehicle.port}")
-    stranger = mavutil.mavlink_connection("udpout:%s:%d" % vehicle.address)
-    for _ in range(10):
-        stranger.mav.command_long_send(1, 1, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0, 1,
-                                       0, 0, 0, 0, 0, 0)
-    stranger.close()
-    asked_ms = client.until("ATTITUDE").time_boot_ms
-    client.until("ATTITUDE", lambda m: m.time_boot_ms > asked_ms + 2500)  # older news is read
-    assert client.until_disarmed()
-    summary = vehicle.end()
-    assert summary["dropped"]["foreign_datagrams"] == 10 and summary["commands"] == 0
 
 
 def test_a_mission_is_uploaded_read_back_and_flown(fly, connected):
@@ -321,11 +287,4 @@ def test_a_ground_station_listens_beside_the_program(fly, connected):
     assert program.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1) == 0
     station.until("STATUSTEXT", lambda m: m.text.startswith("Local NED counts from"))
     station.until("HEARTBEAT", lambda m: m.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
-    vehicle.end()
-
-
-def test_it_waits_where_it_is_told_to(fly, connected):
-    vehicle = fly("--mavlink", "udpin://127.0.0.1:0")
-    client = connected("udpout:%s:%d" % vehicle.address)
-    assert client.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1) == 0
     vehicle.end()

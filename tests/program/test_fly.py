@@ -183,7 +183,9 @@ def test_the_newest_frame_is_a_file_and_ends_with_the_flight(flying, tmp_path):
     assert sum(abs(h - middle_m) < 2e-3 for h in heights_m) > 0.9 * width
     assert second['rgb shape'] == (height, width, 3) and len(set(second['rgb'])) > 20
     process.send_signal(signal.SIGINT)
-    assert end_of(process).code == 0 and not list((tmp_path / 'frames').iterdir())
+    end = end_of(process)
+    assert end.code == 0 and 'end: stopped' in end.out + end.err
+    assert not list((tmp_path / 'frames').iterdir())
 
 
 @pytest.mark.skipif(not shutil.which('ffmpeg'), reason='no ffmpeg')
@@ -201,13 +203,6 @@ def test_video_shows_what_the_frames_do(flying, client, tmp_path):
     frame = newest(process, tmp_path)['rgb']
     assert len(seen) == len(frame)
     assert sum(abs(a - b) for a, b in zip(seen, frame)) < 6 * len(frame), 'it stands still'
-
-
-def test_ctrl_c_is_an_ordinary_end(flying):
-    process = flying(PORT)
-    process.send_signal(signal.SIGINT)
-    end = end_of(process)
-    assert end.code == 0 and 'end: stopped' in end.out + end.err
 
 
 def test_touching_the_structure_is_a_failure_that_says_where(flying, client):

@@ -30,8 +30,8 @@ inline VehicleConfig with(const CommanderParameters& commander) {
   return config;
 }
 
-inline Quadrotor on_ground(const VehicleConfig& config = {}) {
-  return {config, World{}, {Vec3(1, 2, 0), 0.5}, 1, Px4::Start::on_ground};
+inline Quadrotor on_ground(const VehicleConfig& config = {}, const WindConfig& wind = {}) {
+  return {config, World{}, {Vec3(1, 2, 0), 0.5}, 1, Px4::Start::on_ground, wind};
 }
 
 inline Quadrotor airborne(const VehicleConfig& config = {},

@@ -149,15 +149,6 @@ TEST(Offboard, DisarmingInTheAirNeedsForce) {  // 15
   EXPECT_LT(quadrotor.state().v_world_m_s.z(), -3.0);  // falls
 }
 
-TEST(Offboard, ArmingIsRefusedInLand) {  // 16
-  for (const NavState mode : {NavState::land, NavState::rtl}) {
-    Quadrotor quadrotor = on_ground();
-    EXPECT_EQ(quadrotor.px4().set_mode(mode), Ack::accepted);
-    EXPECT_EQ(quadrotor.px4().command({400, {1, 0}}), Ack::temporarily_rejected);
-    EXPECT_FALSE(quadrotor.px4().is_armed());
-  }
-}
-
 TEST(Offboard, LiftsOffNoSoonerThanTheRotorsHaveSpunUp) {  // 19
   Quadrotor quadrotor = on_ground();
   const Setpoint above = go_to(Vec3(1, 2, 5), 0.5);

@@ -8,7 +8,6 @@
 #include "scenarios/builtin.hpp"
 #include "sim/flight/disturbances.hpp"
 #include "sim/flight/guidance.hpp"
-#include "sim/flight/quadrotor.hpp"
 #include "sim/mesh/world.hpp"
 #include "tests/support/streaming_flight.hpp"
 
@@ -207,12 +206,6 @@ TEST(HoverInAWind, LeansByTheDragAndStaysInPlace) {
     // 2019 leans by 30 deg
     EXPECT_LT(off_m, preset == "iris_sitl_2019" ? 0.5 : 0.1) << preset;
   }
-}
-
-TEST(HoverInAWind, WhoeverStandsInItWithoutRotorsDrawsNothing) {
-  Quadrotor parked({}, World{}, ViewPose{}, 1, Px4::Start::on_ground, {Vec3(10, 0, 0), 0.0});
-  for (int i = 0; i < kTicksPerSecond; ++i) parked.step();
-  EXPECT_EQ(parked.energy_wh(), 0.0);
 }
 
 TEST(HoverInAWind, HoversAgainstAGaleOnlyAsFarAsItLeans) {

@@ -280,21 +280,5 @@ TEST(MavlinkFrame, AGoodFrameIsFoundBehindAnyGarbageUnknownMessagesAndFlags) {
   }
 }
 
-TEST(MavlinkFrame, TheTableGivesWhatBitByBitGives) {
-  Bytes bytes;
-  for (int i = 0; i < 300; ++i) {
-    bytes.push_back(static_cast<std::uint8_t>(i * 37 + i / 7));
-    std::uint16_t crc = 0xffff;
-    for (std::size_t k = 0; k <= bytes.size(); ++k) {
-      const unsigned byte = k < bytes.size() ? bytes[k] : 152U;
-      crc = static_cast<std::uint16_t>(crc ^ byte);
-      for (int bit = 0; bit < 8; ++bit) {
-        crc = static_cast<std::uint16_t>((crc >> 1) ^ ((crc & 1) != 0 ? 0x8408 : 0));
-      }
-    }
-    ASSERT_EQ(frame_crc(bytes, 152), crc) << i;
-  }
-}
-
 }  // namespace
 }  // namespace gnbv::mavlink

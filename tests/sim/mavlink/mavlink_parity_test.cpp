@@ -53,6 +53,8 @@ TEST(MavlinkParity, LocalPlacesCountFromHomeAndHoveringThereIsAboveTheStart) {
   }
   EXPECT_LT((place(session) - Vec3(7, -3, 2.055)).norm(), 0.1);
   EXPECT_NEAR(session.last<Odometry>().p_m[2], -2.0, 0.1);
+  EXPECT_EQ(session.last<Heartbeat>().custom_mode, 6U << 16);
+  EXPECT_EQ(session.last<ExtendedSysState>().landed_state, 2);
   std::string said;
   for (const auto& text : session.all<StatusText>()) said += std::string(text.text.data()) + "\n";
   EXPECT_NE(said.find("Local NED counts from world x 7.00 y -3.00\n"), std::string::npos) << said;
@@ -177,19 +179,27 @@ TEST(MavlinkParity, EveryLinkHearsTheNewsAndItsOwnAnswersAlone) {
       .param = {1}, .command = kArmDisarm, .target_system = 1, .target_component = 1};
   endpoints[0].receive(write_frame({0, 255, 190, CommandLong::kInfo.id, payload_of(arm)}), kClient,
                        0.0, vehicle);
+  const ParamSet set{4.0F, 1, 1, id_of("MIS_TAKEOFF_ALT"), 9};
+  endpoints[0].receive(write_frame({1, 255, 190, ParamSet::kInfo.id, payload_of(set)}), kClient,
+                       0.0, vehicle);
   const News news = take_news(aboard, vehicle);
   EXPECT_EQ(news.texts.size(), 2U) << "armed, and where local places count from";
   for (std::size_t i = 0; i < endpoints.size(); ++i) {
-    std::size_t texts = 0, acks = 0;
+    std::size_t texts = 0, acks = 0, values = 0;
     ReadCounts counts;
     for (const auto& bytes : endpoints[i].take_outgoing(0.0, vehicle, news)) {
       const Frame frame = read_frames(bytes, counts).at(0);
       texts += frame.message_id == StatusText::kInfo.id ? 1 : 0;
       acks += frame.message_id == CommandAck::kInfo.id ? 1 : 0;
+      if (frame.message_id != ParamValue::kInfo.id) continue;
+      EXPECT_EQ(message_of<ParamValue>(frame.payload).param_value, 4.0F);
+      ++values;
     }
     EXPECT_EQ(texts, 2U) << i;
     EXPECT_EQ(acks, i == 0 ? 1U : 0U);
+    EXPECT_EQ(values, 1U);
   }
+  EXPECT_TRUE(take_news(aboard, vehicle).were_set.empty()) << "told once";
 }
 
 /// Oracle: what an accelerometer feels, turned and without gravity, adds up to the velocity.

@@ -155,27 +155,6 @@ TEST(MavlinkQuestions, AParameterIsSetWithinItsRangeAndTheAnswerIsWhatHolds) {
   EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 4.0);
 }
 
-TEST(MavlinkQuestions, AParameterThatOneClientSetsIsToldToAllOnce) {
-  Quadrotor vehicle({}, World{}, {}, 1, Px4::Start::on_ground);
-  Aboard aboard;
-  Endpoint a(aboard, kClient), b(aboard, Address{0x7f000001, 40002});
-  const auto asked = payload_of(set("MIS_TAKEOFF_ALT", 4.0F));
-  a.receive(write_frame({0, 255, 190, ParamSet::kInfo.id, asked}), kClient, 0.0, vehicle);
-  const News news = take_news(aboard, vehicle);
-  for (Endpoint* const endpoint : {&a, &b}) {
-    int told = 0;
-    for (const auto& bytes : endpoint->take_outgoing(0.0, vehicle, news)) {
-      ReadCounts counts;
-      const Frame frame = read_frames(bytes, counts).at(0);
-      if (frame.message_id != ParamValue::kInfo.id) continue;
-      EXPECT_EQ(message_of<ParamValue>(frame.payload).param_value, 4.0F);
-      ++told;
-    }
-    EXPECT_EQ(told, 1);
-  }
-  EXPECT_TRUE(take_news(aboard, vehicle).were_set.empty());
-}
-
 TEST(MavlinkQuestions, EveryParameterOfTheCommanderIsReadAsItWasSet) {
   Session session;
   // both ends of the range and its middle; whole numbers too
@@ -262,17 +241,6 @@ TEST(MavlinkQuestions, TimeIsToldToWhoAsks) {
   EXPECT_EQ(session.last<Timesync>().ts1_ns, 77);
   EXPECT_EQ(session.last<Ping>().time_us, 1234U);
   EXPECT_EQ(session.last<Ping>().target_system, 255);
-}
-
-TEST(MavlinkQuestions, QuestionsForOthersAreIgnored) {
-  Session session;
-  session.send(ParamRequestList{2, 1});
-  session.send(ParamSet{4.0F, 2, 1, id_of("MIS_TAKEOFF_ALT"), 9});
-  session.send(MissionRequestList{1, 100, 0});
-  session.listen();
-  EXPECT_EQ(session.endpoint().counts().ignored, 3U);
-  EXPECT_EQ(session.endpoint().counts().questions, 0U);
-  EXPECT_EQ(session.vehicle().px4().commander().takeoff_altitude_m, 2.5);
 }
 
 TEST(MavlinkQuestions, WhatIsAskedWithoutEndIsAnsweredWithinABound) {
