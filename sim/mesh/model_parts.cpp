@@ -95,9 +95,8 @@ void fail_at(const fs::path& document, const XmlElement& at, const std::string& 
   throw BadInput(fmt::format("{}:{}: {}", document.string(), at.line(), what));
 }
 
-std::vector<double> numbers_of(const fs::path& document, const XmlElement& at, std::string text,
-                               std::initializer_list<std::size_t> counts) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
+std::vector<double> numbers_of(const fs::path& document, const XmlElement& at,
+                               const std::string& text, std::initializer_list<std::size_t> counts) {
   std::string_view rest = text;
   std::vector<double> values;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
@@ -113,8 +112,9 @@ std::vector<double> numbers_of(const fs::path& document, const XmlElement& at, s
   return values;
 }
 
-std::array<float, 3> rgb_of(const fs::path& document, const XmlElement& at, std::string text) {
-  const auto v = numbers_of(document, at, std::move(text), {3, 4});
+std::array<float, 3> rgb_of(const fs::path& document, const XmlElement& at,
+                            const std::string& text) {
+  const auto v = numbers_of(document, at, text, {3, 4});
   std::array<float, 3> rgb{};
   for (std::size_t i = 0; i < 3; ++i) rgb[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
   return rgb;
@@ -135,6 +135,7 @@ Eigen::Matrix3d R_rpy(double roll_rad, double pitch_rad, double yaw_rad) {
 
 fs::path resolved(const fs::path& document, const XmlElement& at, std::string uri) {
   uri = percent_decoded(trimmed(uri));
+  if (uri.empty()) fail_at(document, at, fmt::format("<{}> names no file", at.name()));
   const fs::path folder = fs::absolute(document).parent_path();
   const std::size_t scheme = uri.find("://");
   const std::string kind = scheme == uri.npos ? "" : uri.substr(0, scheme);
@@ -227,11 +228,11 @@ TriangleMesh ModelParts::shape_of(const fs::path& document, const XmlElement& sh
   return std::move(mesh);
 }
 
-void ModelParts::add(const fs::path& document, const XmlElement& geometry, Matrix4 T_model_geometry,
+void ModelParts::add(const fs::path& document, const XmlElement& visual, Matrix4 T_model_geometry,
                      const Look& look) {
-  const std::vector<XmlElement> shapes = geometry.children();
+  const std::vector<XmlElement> shapes = visual.child("geometry").children();
   if (shapes.size() != 1) {
-    fail_at(document, geometry, fmt::format("<geometry> of {} shapes", shapes.size()));
+    fail_at(document, visual, fmt::format("its <geometry> is of {} shapes", shapes.size()));
   }
   if (shapes[0].name() == "empty") return;
   if (shapes[0].name() == "plane" || shapes[0].name() == "heightmap") {
@@ -256,7 +257,7 @@ void ModelParts::add(const fs::path& document, const XmlElement& geometry, Matri
     }
   }
   if (reading.mesh.faces.size() + part.faces.size() > kMostModelFaces) {
-    fail_at(document, geometry, fmt::format("more than {} faces", kMostModelFaces));
+    fail_at(document, visual, fmt::format("more than {} faces", kMostModelFaces));
   }
   part.face_material.resize(part.faces.size());
   if (reading.mesh.faces.empty()) {

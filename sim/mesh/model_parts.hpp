@@ -39,9 +39,9 @@ class ModelParts {
   ModelParts(const std::filesystem::path& path, const Matrix4& T_world_model)
       : T_world_model_(T_world_model), pictures_(path) {}
 
-  /// Adds what a <geometry> of a document holds: box, sphere, cylinder, capsule, cone, ellipsoid or
+  /// Adds the <geometry> of a <visual>: box, sphere, cylinder, capsule, cone, ellipsoid or
   /// mesh, of URDF or SDF. The look is of what has none of its own.
-  void add(const std::filesystem::path& document, const XmlElement& geometry,
+  void add(const std::filesystem::path& document, const XmlElement& visual,
            Matrix4 T_model_geometry, const Look& look);
   /// The picture that a material names; one that is not there is none, with a warning.
   Texture picture(const std::filesystem::path& document, const XmlElement& at,
@@ -74,11 +74,11 @@ class ModelParts {
 
 /// The numbers of a text, as many as `counts` allows. Throws BadInput naming the element.
 std::vector<double> numbers_of(const std::filesystem::path& document, const XmlElement& at,
-                               std::string text, std::initializer_list<std::size_t> counts);
+                               const std::string& text, std::initializer_list<std::size_t> counts);
 
 /// Three of a text's three or four numbers, each in [0, 1]. Throws as numbers_of().
 std::array<float, 3> rgb_of(const std::filesystem::path& document, const XmlElement& at,
-                            std::string text);
+                            const std::string& text);
 
 /// Roll, pitch and yaw about fixed axes, rad.
 Eigen::Matrix4d placed(const Vec3& p_m, const Eigen::Matrix3d& R);

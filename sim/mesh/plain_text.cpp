@@ -52,7 +52,7 @@ void append_code_point(std::string& out, char32_t code) {
 }  // namespace
 
 std::string_view take_word(std::string_view& text) {
-  constexpr std::string_view kBlanks = " \t\r";
+  constexpr std::string_view kBlanks = " \t\r\n";
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   text.remove_prefix(word.size());

@@ -15,7 +15,7 @@ namespace gnbv {
 
 using Words = std::span<const std::string_view>;
 
-/// Cuts the first word off a text, with the blanks before it; empty at its end.
+/// Cuts the first word off a text, with the blanks and line ends before it; empty at its end.
 std::string_view take_word(std::string_view& text);
 
 /// Without the blanks and line ends around it.

@@ -34,7 +34,7 @@ Matrix4 pose_of(const Place& of) {
     if (!(q.norm() > 0.0)) fail({of.document, pose}, "<pose> has a quaternion of 0");
     return placed(p_m, q.normalized().toRotationMatrix());
   }
-  const std::string degrees = pose.attribute("degrees").value_or("false");
+  const std::string degrees = in_lower_case(pose.attribute("degrees").value_or("false"));
   const double unit_rad = degrees == "true" || degrees == "1" ? kPi / 180.0 : 1.0;
   return placed(p_m, R_rpy(unit_rad * v[3], unit_rad * v[4], unit_rad * v[5]));
 }
@@ -53,10 +53,11 @@ std::string base_of(const Place& of, std::string fallback) {
 /// <include> that says its name and pose, too.
 class ModelFrames {
  public:
-  ModelFrames(const fs::path& document, const XmlElement& model) : document_(document) {
+  ModelFrames(const fs::path& document, const XmlElement& model)
+      : document_(document), own_(model.name() == "world" ? "world" : "__model__") {
     for (const XmlElement& element : model.children()) {
       const std::string_view kind = element.name();
-      std::string base = "__model__";
+      std::string base = own_;
       if (kind == "joint") base = trimmed(element.child("child").text());
       if (kind == "frame") base = element.attribute("attached_to").value_or(base);
       const bool is_include = kind == "include" && element.child("name") && element.child("pose");
@@ -74,7 +75,7 @@ class ModelFrames {
   }
 
   Matrix4 T_model_frame(const std::string& name, const XmlElement& asked_by, int deep = 0) const {
-    if (name == "__model__" || name.empty()) return Matrix4::Identity();
+    if (name == own_ || name.empty()) return Matrix4::Identity();
     const auto found = frames_.find(name);
     if (found == frames_.end()) {
       fail({document_, asked_by},
@@ -102,6 +103,7 @@ class ModelFrames {
 
  private:
   const fs::path& document_;
+  const std::string own_;  // the name of the model's frame, or of the world's
   std::map<std::string, std::pair<XmlElement, std::string>> frames_;
 };
 
@@ -119,6 +121,11 @@ class SdfReader {
     add_models(document, root, T_world, T_placed);
     for (const XmlElement& world : root.children("world")) {
       add_models(document, world, T_world, nullptr);
+      if (const XmlElement state = world.child("state")) {
+        to_.reading.warnings.push_back(
+            fmt::format("{}:{}: <state> is not read: models stand where their own <pose> says",
+                        document.string(), state.line()));
+      }
     }
   }
 
@@ -166,7 +173,7 @@ class SdfReader {
     const ModelFrames frames(document, model);
     for (const XmlElement& link : model.children("link")) {
       for (const XmlElement& visual : link.children("visual")) {
-        to_.add(document, visual.child("geometry"), T_world_model * frames.T_model_of(visual, link),
+        to_.add(document, visual, T_world_model * frames.T_model_of(visual, link),
                 look_of(document, visual));
       }
     }

@@ -17,7 +17,9 @@ class UrdfReader {
     const XmlElement robot = tree_.root();
     if (robot.name() != "robot") fail_at(path_, robot, "is no URDF: its root is no <robot>");
     tree_.for_each([&](const XmlElement& element) {
+      // a call of a macro is an element of that prefix; what it stands for would be lost
       const bool is_macro =
+          element.has_prefix("xacro") ||
           element.attribute("filename").value_or("").find("$(") != std::string::npos;
       if (element.name() == "macro" || element.name() == "include" || is_macro) {
         fail_at(path_, element, "is xacro: `xacro FILE.xacro > FILE.urdf` expands it");
@@ -77,8 +79,7 @@ class UrdfReader {
       T_root_link = at->T_parent_link * T_root_link;
     }
     for (const XmlElement& visual : link.element.children("visual")) {
-      to_.add(path_, visual.child("geometry"), T_root_link * origin_of(visual),
-              look_of(visual.child("material")));
+      to_.add(path_, visual, T_root_link * origin_of(visual), look_of(visual.child("material")));
     }
   }
 

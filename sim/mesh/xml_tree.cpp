@@ -41,8 +41,8 @@ void note_fault(void* context, xmlErrorPtr error) {
   std::string& first = is_harmless(error->code) ? faults.harmless : faults.fatal;
   if (!first.empty()) return;
   std::string what = error->message != nullptr ? error->message : "no XML";
-  while (!what.empty() && what.back() == '\n') what.pop_back();
-  first = fmt::format("{}: {}", std::max(error->line, 1), what.substr(0, 120));
+  what.resize(std::min({what.find('\n'), what.size(), std::size_t{120}}));
+  first = fmt::format("{}: {}", std::max(error->line, 1), what);
 }
 
 }  // namespace
@@ -50,6 +50,13 @@ void note_fault(void* context, xmlErrorPtr error) {
 std::string_view XmlElement::name() const {
   const std::string_view whole = node_ != nullptr ? chars(node_->name) : "";
   return whole.substr(whole.find(':') + 1);  // of a prefix that nobody declared
+}
+
+bool XmlElement::has_prefix(std::string_view prefix) const {
+  if (node_ == nullptr) return false;
+  if (node_->ns == nullptr)
+    return std::string(chars(node_->name)).starts_with(fmt::format("{}:", prefix));
+  return node_->ns->prefix != nullptr && chars(node_->ns->prefix) == prefix;
 }
 
 std::optional<std::string> XmlElement::attribute(const char* name) const {

@@ -23,6 +23,8 @@ class XmlElement {
   explicit operator bool() const { return node_ != nullptr; }
   bool operator==(const XmlElement&) const = default;
   std::string_view name() const;
+  /// Whether its name is `prefix:name`, declared or not.
+  bool has_prefix(std::string_view prefix) const;
   std::optional<std::string> attribute(const char* name) const;
   /// All text within it, without comments.
   std::string text() const;

@@ -54,7 +54,7 @@ TEST_F(ModelFile, PosesOfAnSdfFollowWhatTheyAreRelativeTo) {
       <link name='a'><pose>1 0 0 0 0 0</pose>)" +
                visual("<pose>0 0 2 0 0 0</pose>") + R"(
         <collision name='c'><geometry><box><size>9 9 9</size></box></geometry></collision></link>
-      <frame name='f' attached_to='a'><pose degrees='true'>0 1 0 0 0 90</pose></frame>
+      <frame name='f' attached_to='a'><pose degrees='True'>0 1 0 0 0 90</pose></frame>
       <link name='b'><pose relative_to='f'>1 0 0 0 0 0</pose>)" +
                visual("") + R"(</link>
       <joint name='j' type='fixed'><parent>a</parent><child>b</child><pose>0 0 1 0 0 0</pose></joint>
@@ -108,7 +108,8 @@ TEST_F(ModelFile, IncludedModelsAndWorldsStandWhereTheyArePut) {
   const std::string world = sdf(
       R"(<world name='w'>
       <include><uri>model://post</uri></include>
-      <include><uri>model://post</uri><pose>5 0 0 0 0 0</pose></include>
+      <include><uri>model://post</uri><pose relative_to='world'>5 0 0 0 0 0</pose></include>
+      <state world_name='w'><model name='post'><pose>9 9 9 0 0 0</pose></model></state>
       <model name='ground'><link name='l'>)" +
       visual("", "<geometry><plane><normal>0 0 1</normal></plane></geometry>") + R"(</link></model>
       <model name='outer'><pose>0 7 0 0 0 0</pose>
@@ -116,8 +117,9 @@ TEST_F(ModelFile, IncludedModelsAndWorldsStandWhereTheyArePut) {
       visual("") + R"(</link></model>
       </model></world>)");
   expect_places(load("site.world", world), {{1, 1, 4}, {6, 1, 1}, {0, 8, 0}});
-  ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_TRUE(test::says(warnings_[0], {"1 planes or heightmaps left out"}));
+  ASSERT_EQ(warnings_.size(), 2U);
+  EXPECT_TRUE(test::says(warnings_[0], {"site.world:4: <state> is not read"}));
+  EXPECT_TRUE(test::says(warnings_[1], {"1 planes or heightmaps left out"}));
   MeshFileConfig folder = test::file(folder_ / "post");
   folder.offset_m = Vec3(0, 0, 10);
   expect_places(load_mesh(folder), {{1, 1, 14}});
@@ -197,7 +199,8 @@ TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
         {of_visual("", geometry("<mesh><uri>https://x/y.dae</uri></mesh>")), "is on no disk"},
         {of_visual("", geometry("<sphere><radius>-1</radius></sphere>")), "not positive"},
         {of_visual("", geometry("<box/>")), "<box> without size"},
-        {of_visual("", ""), "m.sdf:"},
+        {of_visual("", ""), "m.sdf:3: its <geometry> is of 0 shapes"},
+        {of_visual("", geometry("<mesh><uri> </uri></mesh>")), "<mesh> names no file"},
         {of_visual("<pose>1 2 3</pose>", kBox), "<pose> has 3 numbers"},
         {of_visual("<pose>1 2 3 0 0 nan</pose>", kBox), "'nan' is no number"},
         {of_visual("<pose relative_to='z'>0 0 0 0 0 0</pose>", kBox), "the frame 'z' is not in"},
@@ -215,8 +218,13 @@ TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
   EXPECT_TRUE(test::says(complaint_of("r.urdf", "<robot><link name='a'/>" + joint + "</robot>"),
                          {"lead back to it"}));
   EXPECT_TRUE(test::says(complaint_of("r.urdf", "<robot>" + joint + "</robot>"), {"is no link"}));
-  EXPECT_TRUE(test::says(complaint_of("r.urdf", "<robot xmlns:xacro='x'><xacro:macro/></robot>"),
-                         {"is xacro"}));
+  for (const char* const call : {"<xacro:wheel side='left'/>", "<xacro:if value='1'/>"}) {
+    for (const char* const declares : {" xmlns:xacro='x'", ""}) {
+      EXPECT_TRUE(
+          test::says(complaint_of("r.urdf", fmt::format("<robot{}>\n{}</robot>", declares, call)),
+                     {"r.urdf:2: is xacro"}));
+    }
+  }
   std::filesystem::create_directories(folder_ / "none");
   EXPECT_TRUE(test::says(test::complaint(test::file(folder_ / "none")), {"without model.sdf"}));
 }
