@@ -1,5 +1,4 @@
-// read_collada() of sim/mesh/mesh_scene.hpp. Our own, since assimp's (5.2.5) ends the program on
-// sound files, and reads the header otherwise than the specification.
+// read_collada() of sim/mesh/mesh_scene.hpp.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,9 +17,7 @@ namespace {
 using Matrix4 = Eigen::Matrix4d;
 
 std::string first_word_of(const std::string& text) {
-  std::string line = text;
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::string_view rest = line;
+  std::string_view rest = text;
   return std::string(take_word(rest));
 }
 
@@ -149,7 +146,7 @@ class ColladaReader {
       if (skin) {
         ++skins_;
         const XmlElement bind = skin.child("bind_shape_matrix");
-        const std::vector<double> v = file_.numbers(bind);
+        const std::vector<double> v = file_.singles(bind);
         // joints place it, not its node
         T = v.size() >= 16 ? step_of("matrix", v) : Matrix4::Identity();
       }
@@ -240,8 +237,7 @@ class ColladaReader {
         out.texture = picture(effect, texture);
         texcoords_[out_.materials.size()] = texture.attribute("texcoord").value_or("");
       }
-      std::string text = diffuse.child("color").text();
-      std::replace(text.begin(), text.end(), '\n', ' ');
+      const std::string text = diffuse.child("color").text();
       std::string_view rest = text;
       std::array<float, 3> rgb{};
       bool is_whole = true;

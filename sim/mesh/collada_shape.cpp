@@ -45,7 +45,7 @@ struct UvRows {
   std::vector<double> values;
 
   UvRows(const ColladaFile& file, const XmlElement& source)
-      : values(file.numbers(array_of(file, source))) {
+      : values(file.singles(array_of(file, source))) {
     const XmlElement accessor = source.child("technique_common").child("accessor");
     const auto given = read_decimal(trimmed(accessor.attribute("stride").value_or("")));
     if (given && !(*given >= 2.0 && *given < 1e9)) file.fail(source, "coordinates without a v");
@@ -109,13 +109,11 @@ class ColladaPrimitive {
         for (const XmlElement& of : of_vertices) {
           if (of.attribute("semantic") == "POSITION") source_ = file.named_by(of, "source");
         }
-      } else if (semantic == "TEXCOORD" && wants_uvs) {
-        add_uvs(input, static_cast<std::size_t>(offset));
+      } else {
+        add_look(input, static_cast<std::size_t>(offset), wants_uvs);
       }
     }
-    for (const XmlElement& of : of_vertices) {
-      if (of.attribute("semantic") == "TEXCOORD" && wants_uvs) add_uvs(of, offset_);
-    }
+    for (const XmlElement& of : of_vertices) add_look(of, offset_, wants_uvs);
     group_.material = element.attribute("material").value_or("");
   }
 
@@ -142,7 +140,15 @@ class ColladaPrimitive {
     UvRows rows;
   };
 
-  void add_uvs(const XmlElement& input, std::size_t offset) {
+  void add_look(const XmlElement& input, std::size_t offset, bool wants_uvs) {
+    const auto semantic = input.attribute("semantic");
+    if (semantic == "COLOR") {
+      shape_.faults.push_back(
+          fmt::format("{}: colours of vertices are not read: of COLLADA, those "
+                      "of materials are",
+                      file_.path().string()));
+    }
+    if (semantic != "TEXCOORD" || !wants_uvs) return;
     try {
       const double set = read_decimal(trimmed(input.attribute("set").value_or("0"))).value_or(0.0);
       UvInput uvs{offset, set > 0.0 && set < 1e9 ? static_cast<std::size_t>(set) : 0,
@@ -173,7 +179,8 @@ class ColladaPrimitive {
   }
   std::uint32_t vertex_of(std::uint32_t corner) const {
     const double index = index_of(corner, offset_);
-    const bool exists = index >= 0.0 && index < static_cast<double>(group_.part.vertices.size());
+    const bool exists = index >= 0.0 && index < static_cast<double>(group_.part.vertices.size()) &&
+                        index == std::floor(index);
     return exists ? static_cast<std::uint32_t>(index) : kNoVertex;
   }
   CornerLook look_of(std::uint32_t corner, const UvInput& uvs) const {
@@ -301,8 +308,7 @@ std::optional<double> read_with_comma(std::string_view word) {
 template <typename Read>
 std::vector<double> ColladaFile::words(const XmlElement& element, const Read& read) const {
   std::vector<double> out;
-  std::string text = element.text();
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  const std::string text = element.text();
   std::string_view rest = text;
   for (auto word = take_word(rest); !word.empty(); word = take_word(rest)) {
     const auto value = read(word);

@@ -25,7 +25,8 @@ class ColladaFile {
   bool has_images() const { return has_images_; }
   /// The numbers in an element's text.
   std::vector<double> numbers(const XmlElement& element) const;
-  /// The same in single precision: positions and matrices.
+  /// The same in single precision, with decimal commas where there are any: positions, texture
+  /// coordinates and matrices.
   std::vector<double> singles(const XmlElement& element) const;
   [[noreturn]] void fail(const XmlElement& at, const std::string& what) const;
 
@@ -50,7 +51,7 @@ struct ColladaShape {
   std::vector<Group> groups;
   std::size_t impossible_faces = 0;      // of vertices that do not exist, or fewer than three
   std::size_t unread = 0;                // surfaces that are no polygons
-  std::vector<std::string> faults = {};  // of texture coordinates, which are left out
+  std::vector<std::string> faults = {};  // of texture coordinates and colours that are left out
 };
 
 /// Triangles, strips, fans and polygons, with their holes; lines are passed over. Each set of

@@ -6,6 +6,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/texture_file.hpp"
 
@@ -40,6 +41,11 @@ const GltfComponent* component_of(int type) {
   return nullptr;
 }
 
+std::string is_other_version(const std::string& major) {
+  return fmt::format("is glTF {}, and only glTF 2 is read: export it as glTF 2",
+                     major.substr(0, 60));
+}
+
 /// The JSON text of a .glb and its bytes; chunks begin where the ones before them end.
 std::string json_of_glb(const GltfFile& file, const std::string& glb,
                         std::optional<std::string>& chunk) {
@@ -65,15 +71,14 @@ std::string json_of_glb(const GltfFile& file, const std::string& glb,
 }  // namespace
 
 void GltfFile::fail(const std::string& what) const {
-  throw BadInput(fmt::format("{}: {}", path_.string(), what));
+  throw BadInput(fmt::format("{}: {}", path_.string(), printable(what)));
 }
 
 GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
-  constexpr std::uint32_t kTwo = 2;
   std::string text = read_file(path);
   if (text.starts_with("glTF") && text.size() >= 12) {
-    if (const auto version = number_at<std::uint32_t>(text.data() + 4); version != kTwo) {
-      fail(fmt::format("is glTF {}, and only glTF 2 is read: export it as glTF 2", version));
+    if (const auto version = number_at<std::uint32_t>(text.data() + 4); version != 2) {
+      fail(is_other_version(std::to_string(version)));
     }
     text = json_of_glb(*this, text, chunk_);
     while (!text.empty() && text.back() == '\0') text.pop_back();  // padding of some writers
@@ -103,9 +108,9 @@ GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {
                                ? version->get<std::string>()
                                : "";
   const auto meshes = json_.find("meshes");  // a list in glTF 2
-  if (what.starts_with("1") || (meshes != json_.end() && meshes->is_object())) {
-    fail("is glTF 1, and only glTF 2 is read: export it as glTF 2");
-  }
+  const bool is_one = meshes != json_.end() && meshes->is_object();
+  const std::string major = is_one ? "1" : what.substr(0, what.find('.'));
+  if (!major.empty() && major != "2") fail(is_other_version(major));
   if (!has_asset) fail("is no glTF file: its JSON has no 'asset'");
 }
 
@@ -186,17 +191,12 @@ std::string_view GltfFile::buffer(std::size_t i) {
     bytes = *decoded;
     return bytes;
   }
-  const std::filesystem::path folder = path_.parent_path();
-  std::error_code ignored;
-  const bool is_plain = std::filesystem::is_regular_file(folder / name, ignored);
-  const std::string file = is_plain ? name : percent_decoded(name);
-  if (!std::filesystem::is_regular_file(folder / file, ignored)) {
-    fail(fmt::format("its buffer '{}' is not there", file));
-  }
-  bytes = read_file(folder / file);
-  files_.push_back(folder / file);
+  const std::filesystem::path file = file_of_uri(path_, name);
+  if (file.empty()) fail(fmt::format("its buffer '{}' is not there", name.substr(0, 100)));
+  bytes = read_file(file);
+  files_.push_back(file);
   if (bytes.starts_with("version https://git-lfs")) {
-    fail(fmt::format("its buffer '{}' is a Git LFS pointer: git lfs pull", file));
+    fail(fmt::format("its buffer '{}' is a Git LFS pointer: git lfs pull", name));
   }
   return bytes;
 }

@@ -1,5 +1,4 @@
-// read_gltf() of sim/mesh/mesh_scene.hpp. Our own, since assimp's knows neither quantized positions
-// nor instances, skins or default weights.
+// read_gltf() of sim/mesh/mesh_scene.hpp.
 #include <algorithm>
 #include <array>
 #include <set>

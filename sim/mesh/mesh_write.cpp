@@ -46,7 +46,6 @@ std::string obj_text_of(const TriangleMesh& mesh, const std::string& mtl_name) {
 }
 
 /// Each face has the sRGB bytes of its material, of its picture the mean, as MeshLab shows them.
-/// Our own, since assimp (5.2.4) writes binary PLY with colours wrong.
 std::string ply_bytes_of(const TriangleMesh& mesh) {
   std::vector<Rgb8> colours;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {

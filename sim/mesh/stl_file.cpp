@@ -1,4 +1,4 @@
-// read_stl() of sim/mesh/mesh_scene.hpp. Our own, since assimp's refuses what nobody needs.
+// read_stl() of sim/mesh/mesh_scene.hpp.
 #include <sstream>
 
 #include "sim/core/file.hpp"
@@ -121,7 +121,10 @@ void read_stl_bytes(const std::filesystem::path& path, std::string_view bytes, M
                                path.string(), held, announced));
   }
   MeshScene::Part& part = scene.parts.emplace_back();
+  std::size_t coloured = 0;
   for (std::size_t i = 0; i < announced; ++i) {
+    const char* const end = bytes.data() + kStlHeader + (i + 1) * kStlTriangle;
+    coloured += number_at<std::uint16_t>(end - 2) != 0 ? 1 : 0;
     const std::uint32_t first = as_index(part.vertices.size(), path.string(), "vertices");
     part.faces.push_back({first, first + 1, first + 2});
     for (std::size_t k = 0; k < 3; ++k) {  // the normal comes first
@@ -129,6 +132,11 @@ void read_stl_bytes(const std::filesystem::path& path, std::string_view bytes, M
       part.vertices.emplace_back(number_at<float>(at), number_at<float>(at + 4),
                                  number_at<float>(at + 8));
     }
+  }
+  if (coloured > 0) {
+    scene.warnings.push_back(fmt::format(
+        "{}: {} triangles have attributes, in which some programs keep colours: not read",
+        path.string(), coloured));
   }
   const std::size_t over = bytes.size() - kStlHeader - announced * kStlTriangle;
   if (over == 0) return;

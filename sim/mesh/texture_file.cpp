@@ -174,8 +174,9 @@ std::optional<std::string> bytes_of_base64(std::string_view text) {
   return out;
 }
 
-/// The file that is meant; empty where there is none.
-fs::path found(const fs::path& mesh, const std::string& uri) {
+}  // namespace
+
+fs::path file_of_uri(const fs::path& mesh, const std::string& uri) {
   std::vector<std::string> names = {uri, without_scheme(uri)};
   names.push_back(percent_decoded(names.back()));
   names.push_back(names.back());
@@ -193,8 +194,6 @@ fs::path found(const fs::path& mesh, const std::string& uri) {
   }
   return {};
 }
-
-}  // namespace
 
 Image read_picture(std::string_view bytes, std::size_t most_px) {
   if (bytes.starts_with("\x89PNG")) return read_png(bytes, most_px);
@@ -230,7 +229,7 @@ Texture TextureFiles::at(const std::string& uri, const std::array<Wrap, 2>& wrap
   if (const auto known = images_.find(uri); known != images_.end()) {
     return {uri, known->second, wrap};
   }
-  const fs::path file = found(mesh_, uri);
+  const fs::path file = file_of_uri(mesh_, uri);
   if (!file.empty()) {
     files_.push_back(file);
     return of(uri, read_file(file), wrap);

@@ -16,6 +16,11 @@ namespace gnbv {
 /// what is wrong with it, or that it has more than `most_px` pixels.
 Image read_picture(std::string_view bytes, std::size_t most_px);
 
+/// The file that a path or URI in a mesh file stands for: beside it (percent-encoded, file:, with
+/// backslashes or not); else its last name there, in `textures` or, as of Gazebo's models, in
+/// `../materials/textures`. Empty where there is none.
+std::filesystem::path file_of_uri(const std::filesystem::path& mesh, const std::string& uri);
+
 /// Reads each picture of a mesh file once. One that is missing, damaged or too large is none, and
 /// is named in the warnings: nothing of it may refuse a shape.
 class TextureFiles {
@@ -25,9 +30,6 @@ class TextureFiles {
 
   explicit TextureFiles(std::filesystem::path mesh) : mesh_(std::move(mesh)) {}
 
-  /// What a path or URI in the file stands for: beside it (percent-encoded, file:, with backslashes
-  /// or not); else its last name there, in `textures` or, as of Gazebo's models, in
-  /// `../materials/textures`.
   Texture at(const std::string& uri, const std::array<Wrap, 2>& wrap);
   /// A picture whose bytes the file holds.
   Texture of(const std::string& name, std::string_view bytes, const std::array<Wrap, 2>& wrap);

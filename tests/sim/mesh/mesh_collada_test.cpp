@@ -81,20 +81,6 @@ TEST_F(MeshFile, ColladaUnitUpAxisAndInstancesAreHonoured) {
                  x_to_z);
 }
 
-TEST_F(MeshFile, ConfigOverridesUnitAndUpAxis) {
-  MeshFileConfig config = file(write("z.dae", collada(kCentimetres, "<up_axis>Z_UP</up_axis>")));
-  config.unit_m = 0.5;
-  expect_collada(load_mesh(config), 0.5, z_stays);
-  config.scale = 3.0;
-  expect_collada(load_mesh(config), 1.5, z_stays);
-  config.up_axis = "y";
-  expect_collada(load_mesh(config), 1.5, y_to_z);
-  config.up_axis = "x";
-  config.unit_m = 0.0;
-  config.scale = 1.0;
-  expect_collada(load_mesh(config), 0.01, x_to_z);
-}
-
 TEST_F(MeshFile, AColladaUnitIsTheNumberOfItsMeterAttribute) {
   const auto unit_m = [&](const std::string& tag) {
     return read_mesh(file(write("t.dae", collada(tag, "")))).declared.unit_m;

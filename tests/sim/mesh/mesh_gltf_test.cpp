@@ -108,6 +108,29 @@ TEST_F(GltfFile, ShapesAreAsTheSceneShowsThem) {
                   "integers");
 }
 
+TEST_F(GltfFile, NodesPlaceTheirMeshesWithYUp) {
+  Gltf turned;
+  turned.node = R"(, "rotation": [0, 0.70710678, 0, 0.70710678], "scale": [2, 2, 2]}, {"mesh": 0,
+ "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1])";
+  turned.primitive = R"(}, "material": 0, "extras": {)";
+  turned.root = R"(, "materials": [{"name": "brass", "pbrMetallicRoughness": {"baseColorFactor":
+ [0.5, 0.25, 0.125, 1]}}])";
+  const std::string text = replaced(replaced(turned.json(), "\"scale\": [2, 2, 2]}]",
+                                             "\"translation\": [10, 0, 0], \"children\": [0]}]"),
+                                    "[0, 1]", "[1, 2]");
+  const TriangleMesh mesh = read("t.gltf", text).mesh;
+  ASSERT_EQ(mesh.faces.size(), 2U);
+  // turned about y, (x, y, z) becomes (z, y, -x); y up, (x, y, z) becomes (x, -z, y)
+  const auto [a, b, c] = face_corners_m(mesh, 1);
+  EXPECT_LT((a - Vec3(10, 0, 0)).norm() + (b - Vec3(10, 2, 0)).norm(), 1e-5);
+  EXPECT_LT((c - Vec3(10, 0, 2)).norm(), 1e-5);
+  // the mirrored one keeps its front
+  const auto mirrored = face_corners_m(mesh, 0);
+  EXPECT_LT((mirrored[0] - Vec3(0, -5, 0)).norm() + (mirrored[2] - Vec3(-1, -5, 0)).norm(), 1e-6);
+  EXPECT_EQ(mesh.materials.at(0).name, "brass");
+  EXPECT_EQ(mesh.materials.at(0).rgb, (std::array{0.5F, 0.25F, 0.125F}));
+}
+
 TEST_F(GltfFile, WhatIsLeftOutIsCounted) {
   Gltf beyond;
   beyond.indices = R"("bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR")";
@@ -149,6 +172,10 @@ TEST_F(GltfFile, ContainersAreReadAsTheyAre) {
   apart.uri = "with%20blank.bin";
   write("with blank.bin", apart.bytes());
   expect_triangle(apart, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "percent-encoded");
+  apart.uri = R"(.\\with blank.bin)";
+  expect_triangle(apart, Box3(Vec3(0, 0, 0), Vec3(1, 0, 1)), 0.5, "a backslash");
+  apart.uri = R"(a\u0000\u001bb.bin)";
+  EXPECT_TRUE(says(fault("t.gltf", apart.json()), {"its buffer 'a\\x00\\x1bb.bin' is not there"}));
   std::string json =
       replaced(Gltf{}.json(), "\"uri\": \"" + data_uri(Gltf{}.bytes()) + "\"", "\"name\": \"b\"");
   while (json.size() % 4 != 1) json += ' ';  // no multiple of four
@@ -165,6 +192,7 @@ TEST_F(GltfFile, ContainersAreReadAsTheyAre) {
   const std::string nested = std::string(100'000, '[') + std::string(100'000, ']');
   for (const auto& [text, what] : std::vector<std::pair<std::string, const char*>>{
            {replaced(whole, "\"2.0\"", "\"1.0\""), "is glTF 1"},
+           {replaced(whole, "\"2.0\"", "\"3.0\""), "is glTF 3"},
            {replaced(whole, "\"buffers\"", R"("extensionsRequired": ["X_new"], "buffers")"),
             "requires the extension X_new"},
            {replaced(whole, "\"buffers\"",
