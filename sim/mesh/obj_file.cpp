@@ -167,17 +167,17 @@ class ObjReader {
     out_.vertices.push_back(p);
   }
 
-  /// "v x y z r g b", as of MeshLab: sRGB in [0, 1]. A file has them of all its vertices or of
-  /// none.
+  /// "v x y z r g b", as of MeshLab: sRGB from 0 to 1 or, as of scanners, to 255. A file has them
+  /// of all its vertices or of none.
   void add_colour(Words values) {
-    if (values.size() < 6 || out_.vertex_rgb.size() != out_.vertices.size()) return;
-    std::uint32_t rgb = 0;
-    for (const std::string_view word : values.subspan(3, 3)) {
-      const double level = read_decimal(word).value_or(-1.0);
-      if (!(level >= 0.0 && level <= 1.0)) return;
-      rgb = rgb << 8U | static_cast<std::uint32_t>(std::lround(255.0 * level));
+    if (values.size() < 6) return;
+    has_colours_ = true;
+    Vec3 levels;
+    for (std::size_t i = 0; i < 3; ++i) {
+      levels[static_cast<Eigen::Index>(i)] = read_decimal(values[3 + i]).value_or(-1.0);
     }
-    out_.vertex_rgb.push_back(rgb);
+    const bool is_colour = (levels.array() >= 0.0 && levels.array() <= 255.0).all();
+    if (is_colour && colours_.rgb.size() == out_.vertices.size()) colours_.add(levels);
   }
 
   void add_uv(Words values) {
@@ -189,12 +189,14 @@ class ObjReader {
 
   /// Once all libraries are read.
   void add_looks() {
-    if (!out_.vertex_rgb.empty() &&
-        (materials_.has_library() || out_.vertex_rgb.size() != out_.vertices.size())) {
-      warnings_.push_back(fmt::format(
-          "{}: colours of vertices left out: {}", path_.string(),
-          materials_.has_library() ? "its materials have colours" : "not all of them have one"));
-      out_.vertex_rgb.clear();
+    const bool have_all = colours_.rgb.size() == out_.vertices.size();
+    if (have_all && !materials_.has_library()) {
+      out_.vertex_rgb = std::move(colours_.rgb);
+    } else if (has_colours_) {
+      warnings_.push_back(fmt::format("{}: colours of vertices left out: {}", path_.string(),
+                                      materials_.has_library()
+                                          ? "its materials have colours"
+                                          : "not all of them have one of 0 to 1 or 255"));
     }
     TextureFiles textures(path_);
     out_.materials = materials_.materials(textures, warnings_);
@@ -258,16 +260,20 @@ class ObjReader {
   }
 
   void use_library(const std::string& name) {
-    const std::filesystem::path library = path_.parent_path() / name;
+    const std::filesystem::path as_named = path_.parent_path() / name;
     if (mtl_) {
       std::istringstream text{std::string(*mtl_)};
-      return materials_.read_library(text, library, "");
+      return materials_.read_library(text, as_named, "");
     }
-    std::error_code ignored;  // a file that we may not look at counts as not found
-    if (std::filesystem::is_regular_file(library, ignored)) {
+    const std::filesystem::path library = file_of_uri(path_, name);
+    if (!library.empty()) {
       std::ifstream file = open_file(library);
       out_.files.push_back(library);
-      return materials_.read_library(file, library, std::filesystem::path(name).parent_path());
+      const bool is_there = library == as_named;
+      return materials_.read_library(
+          file, library,
+          (is_there ? std::filesystem::path(name) : std::filesystem::absolute(library))
+              .parent_path());
     }
     warnings_.push_back(
         fmt::format("{}:{}: material file {} not found", path_.string(), line_, name));
@@ -304,6 +310,8 @@ class ObjReader {
   const bool keeps_uvs_;
   static constexpr long long kMostUvs = kNoVertex;
   PolygonMesh out_;
+  bool has_colours_ = false;               // any vertex
+  LevelColours colours_{1.0, 255.0};       // of the vertices, up to the first without one
   std::vector<Vec2f> uvs_;                 // of the vt
   std::vector<std::uint32_t> corner_uvs_;  // of the corners so far, or of the first of them
   std::size_t line_ = 0;

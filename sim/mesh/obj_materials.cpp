@@ -33,13 +33,14 @@ void ObjMaterials::read_library(std::istream& file, const std::filesystem::path&
   for (std::string_view line; lines.next(line);) {
     split(line, words);
     if (words.size() < 2) continue;
+    const std::string keyword = in_lower_case(words[0]);  // whatever case an exporter writes
     const Words values = Words(words).subspan(1);
-    if (words[0] == "newmtl") {
+    if (keyword == "newmtl") {
       material = joined(values);
       entries_.try_emplace(material);
-    } else if (words[0] == "Kd" && !material.empty()) {
+    } else if (keyword == "kd" && !material.empty()) {
       if (const auto rgb = colour_in(values)) entries_[material].rgb = rgb;
-    } else if (in_lower_case(words[0]) == "map_kd" && !material.empty()) {
+    } else if (keyword == "map_kd" && !material.empty()) {
       read_map(values, folder, entries_[material]);
       has_pictures_ = true;
     }
@@ -50,8 +51,9 @@ void ObjMaterials::read_library(std::istream& file, const std::filesystem::path&
 }
 
 void ObjMaterials::read_map(Words values, const std::filesystem::path& folder, Entry& to) {
-  constexpr std::array<std::string_view, 9> kOfOneWord = {
-      "-blendu", "-blendv", "-cc", "-clamp", "-imfchan", "-boost", "-texres", "-bm", "-type"};
+  constexpr std::array<std::string_view, 10> kOfOneWord = {
+      "-blendu", "-blendv", "-cc", "-clamp", "-imfchan",
+      "-boost",  "-texres", "-bm", "-type",  "-colorspace"};
   while (values.size() > 1 && values[0].starts_with('-')) {
     const std::string_view option = values[0];
     const bool is_placing = option == "-s" || option == "-o" || option == "-t";
@@ -97,10 +99,16 @@ std::vector<Material> ObjMaterials::materials(TextureFiles& textures,
                                               std::vector<std::string>& warnings) {
   std::vector<Material> out(index_of_.size());
   used_.resize(index_of_.size());
+  std::size_t unknown = 0;
+  std::string first_unknown;
   for (const auto& [name, index] : index_of_) {
     auto found = entries_.find(name);
     if (found == entries_.end()) found = entries_.find(name.substr(0, name.find(" #")));
-    if (found != entries_.end()) used_[index] = found->second;
+    if (found != entries_.end()) {
+      used_[index] = found->second;
+    } else if (has_library_ && name != kDefaultMaterial && unknown++ == 0) {
+      first_unknown = name.substr(0, 100);
+    }
     const Entry& entry = used_[index];
     Material& material = out[index];
     material = {.name = name, .rgb = entry.rgb.value_or(kDefaultColour)};
@@ -114,6 +122,10 @@ std::vector<Material> ObjMaterials::materials(TextureFiles& textures,
       warnings.push_back(fmt::format("{}: material {}: the option {} of its map_Kd is not read",
                                      path_, name, entry.unread_option));
     }
+  }
+  if (unknown > 0) {
+    warnings.push_back(fmt::format("{}: {} materials in none of its libraries, and grey: first {}",
+                                   path_, unknown, first_unknown));
   }
   return out;
 }

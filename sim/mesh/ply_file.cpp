@@ -1,5 +1,4 @@
-// The PLY readers of sim/mesh/polygon_mesh.hpp. Our own, since assimp's (5.2.4) crashes on sound
-// binary files and does not know the colours of faces.
+// The PLY readers of sim/mesh/polygon_mesh.hpp.
 #include <algorithm>
 #include <cmath>
 
@@ -18,29 +17,24 @@ Columns columns_of(const PlyElement& element, const std::array<std::string_view,
   Columns found = {count, count, count};
   for (std::size_t i = 0; i < count; ++i) {
     const PlyProperty& property = element.properties[i];
+    std::string_view name = property.name;
+    if (name.starts_with("diffuse_")) name.remove_prefix(8);  // as some call their colours
     for (std::size_t k = 0; k < 3; ++k) {
-      if (property.count_type == nullptr && property.name == names[k]) found[k] = i;
+      if (property.count_type == nullptr && name == names[k]) found[k] = i;
     }
   }
   return found;
 }
 
-Vec3 position_of(const PlyItem& item, const Columns& xyz) {
-  return {item[xyz[0]][0], item[xyz[1]][0], item[xyz[2]][0]};
+Vec3 three_of(const PlyItem& item, const Columns& columns) {
+  return {item[columns[0]][0], item[columns[1]][0], item[columns[2]][0]};
 }
 
-/// Appends 0xrrggbb, if the element has all three channels.
-void add_colour(const PlyItem& item, const PlyElement& element, const Columns& columns,
-                std::vector<std::uint32_t>& colours) {
-  std::uint32_t rgb = 0;
-  for (const std::size_t column : columns) {
-    if (column == element.properties.size()) return;
-    const double level = item[column][0] / element.properties[column].type->full;
-    // NaN counts as 0
-    rgb = rgb << 8 | static_cast<std::uint32_t>(
-                         std::lround(255.0 * (level >= 0.0 ? std::min(level, 1.0) : 0.0)));
-  }
-  colours.push_back(rgb);
+/// For the colours of an element that has all three channels.
+std::optional<LevelColours> colours_for(const PlyElement& element, const Columns& rgb) {
+  if (std::ranges::count(rgb, element.properties.size()) > 0) return std::nullopt;
+  const double full = element.properties[rgb[0]].type->full;
+  return LevelColours(std::min(full, 255.0), std::max(full, 255.0));
 }
 
 Columns xyz_of(const PlyFile& ply, const PlyElement& element) {
@@ -57,10 +51,11 @@ Columns xyz_of(const PlyFile& ply, const PlyElement& element) {
 void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
   const Columns xyz = xyz_of(ply, element);
   const Columns rgb = columns_of(element, {"red", "green", "blue"});
+  auto colours = colours_for(element, rgb);
   out.vertices.reserve(out.vertices.size() + ply.most_items(element));
   std::uint64_t i = 0;  // within the element
   ply.for_each_item(element, [&](const PlyItem& item) {
-    const Vec3 p = position_of(item, xyz);
+    const Vec3 p = three_of(item, xyz);
     if (!p.allFinite() && out.not_finite.empty()) {
       out.not_finite =
           fmt::format("{}: vertex {} is at ({}, {}, {})", ply.path(), i, p.x(), p.y(), p.z());
@@ -68,8 +63,9 @@ void read_vertices(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
     ++i;
     as_index(out.vertices.size(), ply.path(), "vertices");
     out.vertices.push_back(p);
-    add_colour(item, element, rgb, out.vertex_rgb);
+    if (colours) colours->add(three_of(item, rgb));
   });
+  if (colours) out.vertex_rgb = std::move(colours->rgb);
 }
 
 std::uint32_t corner_from(double vertex) {
@@ -115,6 +111,7 @@ void read_strips(PlyFile& ply, const PlyElement& element, PolygonMesh& out) {
 void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
                 std::vector<std::uint32_t>& face_rgb) {
   const Columns rgb = columns_of(element, {"red", "green", "blue"});
+  auto colours = colours_for(element, rgb);
   const std::vector<std::size_t> lists = corner_lists_of(ply, element);
   out.face_ends.reserve(out.face_ends.size() + ply.most_items(element));
   out.corners.reserve(out.corners.size() + 3 * ply.most_items(element));
@@ -123,8 +120,9 @@ void read_faces(PlyFile& ply, const PlyElement& element, PolygonMesh& out,
       for (const double vertex : item[k]) out.corners.push_back(corner_from(vertex));
       out.face_ends.push_back(as_index(out.corners.size(), ply.path(), "corners"));
     }
-    add_colour(item, element, rgb, face_rgb);
+    if (colours) colours->add(three_of(item, rgb));
   });
+  if (colours) face_rgb = std::move(colours->rgb);
 }
 
 /// Drops faces of fewer than three corners or of vertices that do not exist, with their colours.
@@ -200,7 +198,7 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3
     const Columns xyz = is_vertices ? xyz_of(ply, element) : Columns{};
     if (is_vertices) points.reserve(ply.most_items(element));
     ply.for_each_item(element, [&](const PlyItem& item) {
-      if (is_vertices) points.push_back((position_of(item, xyz) + offset_m).cast<float>());
+      if (is_vertices) points.push_back((three_of(item, xyz) + offset_m).cast<float>());
     });
     if (!is_vertices || ply.is_free()) continue;
     is_read_out = std::all_of(&element + 1, all.data() + all.size(),

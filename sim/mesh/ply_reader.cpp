@@ -7,6 +7,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
@@ -45,7 +46,7 @@ std::size_t PlyFile::warn_of_rest(std::vector<std::string>& warnings) {
   if (is_text_) {
     do {
       count += take_word(rest_).empty() ? 0 : 1;
-      if (is_free() && count > 0) fail_in_row("more words than its header announces");
+      if (is_free() && count > 0) fail_in_line("more words than its header announces");
     } while (lines_->next(rest_));
   } else {
     in().ignore(std::numeric_limits<std::streamsize>::max());
@@ -59,11 +60,21 @@ std::size_t PlyFile::warn_of_rest(std::vector<std::string>& warnings) {
 }
 
 void PlyFile::fail(const std::string& what) const {
-  throw BadInput(fmt::format("{}: {}", path_, what));
+  throw BadInput(fmt::format("{}: {}", path_, printable(what)));
 }
 
-void PlyFile::fail_in_row(const std::string& what) const {
-  throw BadInput(fmt::format("{}:{}: {}", path_, header_lines_ + lines_->number(), what));
+void PlyFile::fail_in_line(const std::string& what) const {
+  if (lines_ && !is_text_) fail(what);  // among bytes
+  const std::size_t row = lines_ ? lines_->number() : 0;
+  throw BadInput(fmt::format("{}:{}: {}", path_, header_lines_ + row, printable(what)));
+}
+
+void PlyFile::need_whole_numbers(std::span<const double> values, double least,
+                                 const PlyProperty& list) const {
+  for (const double value : values) {
+    if (value >= least && value == std::floor(value)) continue;
+    fail_in_line(fmt::format("'{}' has {} where a whole number belongs", list.name, value));
+  }
 }
 
 void PlyFile::end_row(const PlyElement& element) {
@@ -71,8 +82,8 @@ void PlyFile::end_row(const PlyElement& element) {
   const std::string_view word = is_text_ ? take_word(left) : "";
   if (!is_free_) is_free_ = !word.empty();
   if (word.empty() || *is_free_) return;
-  fail_in_row(fmt::format("a row of '{}' has more words than the header says, from '{}' on",
-                          element.name, word.substr(0, 60)));
+  fail_in_line(fmt::format("a row of '{}' has more words than the header says, from '{}' on",
+                           element.name, word.substr(0, 60)));
 }
 
 bool PlyFile::next_header_line() {
@@ -111,7 +122,9 @@ void PlyFile::read_header() {
       lines_.emplace(in());
       return;
     }
-    if (!read_declaration(words)) fail(fmt::format("its header has a bad '{}' line", words[0]));
+    if (!read_declaration(words)) {
+      fail_in_line(fmt::format("its header has a bad '{}' line", words[0].substr(0, 60)));
+    }
   }
   need_whole(in_, path_);
   fail("its header has no end_header");
@@ -143,7 +156,7 @@ const PlyType* PlyFile::type_of(std::string_view name) const {
   for (const PlyType& type : kTypes) {
     if (name == type.name || name == type.other_name) return &type;
   }
-  fail(fmt::format("its header names the unknown type '{}'", name));
+  fail_in_line(fmt::format("its header names the unknown type '{}'", name.substr(0, 60)));
 }
 
 void PlyFile::take_numbers(const PlyType& type, double count, bool is_needed,
@@ -173,7 +186,7 @@ double PlyFile::take_number(bool is_needed) {
     if (!lines_->next(rest_)) end_early();
   }
   const auto value = read_decimal(word);
-  if (!value && is_needed) fail_in_row(fmt::format("'{}' is no number", word.substr(0, 60)));
+  if (!value && is_needed) fail_in_line(fmt::format("'{}' is no number", word.substr(0, 60)));
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 

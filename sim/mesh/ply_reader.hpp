@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -62,9 +64,11 @@ class PlyFile {
         double count = 1.0;
         if (property.count_type != nullptr) {
           take_numbers(*property.count_type, 1.0, true, item[k]);
+          need_whole_numbers(item[k], 0.0, property);
           count = item[k][0];
         }
         take_numbers(*property.type, count, property.is_needed(), item[k]);
+        if (property.is_corners()) need_whole_numbers(item[k], kLowest, property);
       }
       end_row(element);
       use(item);
@@ -89,7 +93,14 @@ class PlyFile {
   }
 
  private:
-  [[noreturn]] void fail_in_row(const std::string& what) const;
+  static constexpr double kLowest = -std::numeric_limits<double>::infinity();
+
+  /// Naming the line of the header, or of a text.
+  [[noreturn]] void fail_in_line(const std::string& what) const;
+
+  /// Of a list, its length or the vertices in it: a row of another element has what they cannot be.
+  void need_whole_numbers(std::span<const double> values, double least,
+                          const PlyProperty& list) const;
 
   /// The first row of a text says whether rows end with their lines.
   void end_row(const PlyElement& element);

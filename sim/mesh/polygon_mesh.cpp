@@ -204,6 +204,23 @@ void cut_faces(const PolygonMesh& polygons, TriangleMesh& mesh) {
 
 }  // namespace
 
+void LevelColours::add(const Vec3& levels) {
+  constexpr double kOverlit = 2.0;  // what lights may make of 1
+  if (full_ < most_ && (levels.array() > std::max(full_, kOverlit)).any()) {
+    for (std::uint32_t& of : rgb) {
+      of = rgb_of([&](unsigned shift) {
+        return static_cast<std::uint32_t>(std::lround(full_ / most_ * level_of(of, shift)));
+      });
+    }
+    full_ = most_;
+  }
+  rgb.push_back(rgb_of([&](unsigned shift) {
+    const double share = levels[2 - shift / 8] / full_;
+    return static_cast<std::uint32_t>(
+        std::lround(255.0 * (share >= 0.0 ? std::min(share, 1.0) : 0.0)));
+  }));
+}
+
 Faces triangles_of(std::span<const std::uint32_t> corners, const std::vector<Vec3>& vertices) {
   Faces out;
   EarClipper().cut(corners, vertices, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -36,6 +36,20 @@ struct PolygonMesh {
   std::vector<std::filesystem::path> files = {};  // beside it, that it was read from
 };
 
+/// Colours in sRGB. Levels end at `full`, but at `most` once a level is clearly beyond it: files
+/// write 0 to 255 where 0 to 1 is meant, or where their type could hold more.
+class LevelColours {
+ public:
+  LevelColours(double full, double most) : full_(full), most_(most) {}
+  /// Red, green and blue; NaN counts as 0.
+  void add(const Vec3& levels);
+
+  std::vector<std::uint32_t> rgb = {};  // 0xrrggbb
+
+ private:
+  double full_, most_;
+};
+
 /// Reads the shape, the diffuse colours of its materials and their pictures; no normals.
 /// Leaves out unreadable lines, faces of vertices that do not exist and surfaces that are no
 /// polygons, and counts them in `warnings`. Throws BadInput naming the line where that could number

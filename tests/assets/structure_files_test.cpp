@@ -5,9 +5,9 @@
 
 #include "assets/catalog.hpp"
 #include "scenarios/scenario.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -26,16 +26,11 @@ TEST(StructureFiles, AreWhatTheProgramWritesOfTheStructure) {
 
 /// The message of the BadInput that reading throws; empty when it reads.
 std::string complaint(const StructureTexts& texts) {
-  try {
-    read_structure(texts);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { read_structure(texts); });
 }
 
 const std::string kObj = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl clay\nf 1 2 3\n";
-const std::string kMtl = "newmtl clay\nKd 0.5 0.25 0.125\n";
+const std::string kMtl = "newmtl clay\nKd 0.5 0.25 0.125\nnewmtl sand\nKd 1 1 0\n";
 const std::string kClay = "t:\n  clay: {pattern: bricks, rgb_2: [0.1, 0.2, 0.3], ";
 const std::string kTable = kClay + "pattern_size_m: 0.5}\n";
 

@@ -372,6 +372,7 @@ TEST_F(PictureFile, ColladaHasVGoingUpThroughEveryChain) {
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
            {path, path},
            {path, "<init_from>a%20b.png</init_from>"},
+           {"0 0 1 0 1 1 0 1<", "0,0 0,0 1,0 0,0 1,0 1,0 0,0 1,0<"},
            {path, "<init_from>\n  ./four.png\n</init_from>"},
            {path, "<init_from>file://" + (folder_ / "four.png").string() + "</init_from>"},
            {path, "<init_from>file://" + (folder_ / "a%20b.png").string() + "</init_from>"},
@@ -516,6 +517,30 @@ TEST_F(PictureFile, LooksThatNobodySeesAreAWarning) {
   write("n.mtl", "newmtl n\nKd 1 1 1\n");
   const std::string vertices = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\n";
   EXPECT_EQ(colour(read("a.obj", vertices + "f 1 2 3\n").mesh, 0.2, 0.2), kRed);
+  const std::string bytes = "v 1 0 0 255 0 0\nv 0 1 0 255 1 0\nv 0 0 0 255 0 0\nf 1 2 3\n";
+  EXPECT_EQ(colour(read("a.obj", bytes).mesh, 0.2, 0.2), kRed);
+  EXPECT_EQ(read("a.obj", "v 0 0 0 1 1 1\n" + bytes).warnings, std::vector<std::string>{});
+  expect_warning(read("a.obj", replaced(bytes, "255", "-1")), "not all of them have one");
+  for (const std::string type : {"uchar", "int", "float", "ushort"}) {
+    EXPECT_EQ(colour(read("a.ply",
+                          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                          "property float y\nproperty float z\nproperty " +
+                              type + " diffuse_red\nproperty " + type +
+                              " diffuse_green\nproperty " + type +
+                              " diffuse_blue\nelement face 1\nproperty list uchar int "
+                              "vertex_indices\nend_header\n0 0 0 255 0 0\n"
+                              "1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n")
+                         .mesh,
+                     0.2, 0.2),
+              kRed)
+        << type;
+  }
+  expect_warning(read("a.obj", "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl o\nf 1 2 3\n"),
+                 "1 materials in none of its libraries");
+  expect_warning(read("a.dae", replaced(kDae, "source=\"#p\"/></vertices>",
+                                        "source=\"#p\"/><input semantic=\"COLOR\" "
+                                        "source=\"#t\"/></vertices>")),
+                 "colours of vertices are not read");
   expect_warning(read("a.obj", "mtllib n.mtl\n" + vertices + "f 1 2 3\n"), "colours of vertices");
   expect_warning(read("a.obj", vertices + "v 1 1 0\nf 1 2 3\n"), "colours of vertices");
   expect_warning(

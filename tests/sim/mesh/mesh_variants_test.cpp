@@ -95,14 +95,11 @@ class MeshVariant : public MeshFile {
   }
   /// The unit cube, in any order.
   void expect_cube(const std::string& name, const std::string& content, const std::string& what) {
-    try {
-      const MeshReading found = read(name, content);
-      EXPECT_EQ(found.mesh.faces.size(), 12U) << what;
-      EXPECT_NEAR(surface_area_m2(found.mesh), 6.0, 1e-5) << what;
-      EXPECT_TRUE(bounds_m(found.mesh).isApprox(Box3(Vec3::Zero(), Vec3::Ones()), 1e-6)) << what;
-    } catch (const BadInput& error) {
-      ADD_FAILURE() << what << ": " << error.what();
-    }
+    SCOPED_TRACE(what);
+    const MeshReading found = read(name, content);
+    EXPECT_EQ(found.mesh.faces.size(), 12U);
+    EXPECT_NEAR(surface_area_m2(found.mesh), 6.0, 1e-5);
+    EXPECT_TRUE(bounds_m(found.mesh).isApprox(Box3(Vec3::Zero(), Vec3::Ones()), 1e-6));
   }
 };
 
@@ -132,10 +129,16 @@ TEST_F(MeshVariant, AnObjsShapeNeedsNoneOfItsOtherStatements) {
   expect_cube("t.obj", replaced(obj(), "f 1 2 4 3\n", "f 1 2 4 3 # bottom \\\n"), "comment");
   expect_cube("t.obj", replaced(obj(), "v 0 1 1\n", "v 0 1 1 #here\n"), "comment");
   write("a.mtl", "newmtl red\nKd 1 0 0\n");
-  write("b.mtl", "newmtl blue\nKd 0 0 1\n");
-  const MeshReading two = read("t.obj", "mtllib a.mtl b.mtl\nusemtl blue # the sky\n" + obj());
-  EXPECT_EQ(two.mesh.materials.at(0).rgb, (std::array{0.0F, 0.0F, 1.0F}));
-  EXPECT_TRUE(two.warnings.empty());
+  write("b.mtl", "newmtl blue\nkd 0 0 1\n");
+  for (const std::string named : {"a.mtl b.mtl", ".\\b.mtl", "C:\\models\\b.mtl"}) {
+    const MeshReading two = read("t.obj", "mtllib " + named + "\nusemtl blue # the sky\n" + obj());
+    EXPECT_EQ(two.mesh.materials.at(0).rgb, (std::array{0.0F, 0.0F, 1.0F})) << named;
+    EXPECT_TRUE(two.warnings.empty()) << named;
+  }
+  const MeshReading without = read("t.obj", "mtllib none.mtl\nusemtl steel\n" + obj());
+  EXPECT_EQ(without.mesh.materials.at(0).name, "steel");
+  ASSERT_EQ(without.warnings.size(), 1U);
+  EXPECT_TRUE(says(without.warnings[0], {"t.obj:1: material file none.mtl not found"}));
 }
 
 TEST_F(MeshVariant, WhatIsLeftOutIsCounted) {
@@ -153,7 +156,9 @@ TEST_F(MeshVariant, WhatIsLeftOutIsCounted) {
   expect_lost("t.ply", ply() + "4 0 1 3 2\n", 1, "1 rows after all");
   expect_lost("t.stl", replaced(stl(), "   vertex 0 0 0\n   vertex 0 0 1\n", ""), 1,
               "fewer than three vertices");
-  expect_lost("t.dae", replaced(dae(), "0 1 3 2", "0 1 3 8"), 1, "vertices that do not exist");
+  for (const char* const indices : {"0 1 3 8", "0 1 3 2.5"}) {
+    expect_lost("t.dae", replaced(dae(), "0 1 3 2", indices), 1, "vertices that do not exist");
+  }
   expect_lost("t.dae", replaced(dae(), "</node>", "<instance_geometry url='b.dae#g'/></node>"), 1,
               "not in this file");
 }
@@ -173,15 +178,19 @@ TEST_F(MeshVariant, AnStlIsItsTriangles) {
   const MeshReading cut = read("t.stl", whole.substr(0, whole.find("endsolid")));
   ASSERT_EQ(cut.warnings.size(), 1U);
   EXPECT_TRUE(says(cut.warnings[0], {"may be cut off"}));
-  std::string bytes(80, 'x');
+  std::string bytes = "solid, as some programs begin the free header of a binary file";
+  bytes.resize(80);
   append_bytes(bytes, std::uint32_t{1});
   for (const float x : {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
     append_bytes(bytes, x);
-  append_bytes(bytes, std::uint16_t{0});
+  append_bytes(bytes, std::uint16_t{0x801F});
+  EXPECT_EQ(read("t.stl", bytes).mesh.vertices_m,
+            (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   const MeshReading longer = read("t.stl", bytes + "trailer");
   EXPECT_EQ(longer.mesh.faces.size(), 1U);
-  ASSERT_EQ(longer.warnings.size(), 1U);
-  EXPECT_TRUE(says(longer.warnings[0], {"7 bytes after the 1 triangles"}));
+  ASSERT_EQ(longer.warnings.size(), 2U);
+  EXPECT_TRUE(says(longer.warnings[0], {"1 triangles have attributes"}));
+  EXPECT_TRUE(says(longer.warnings[1], {"7 bytes after the 1 triangles"}));
   EXPECT_TRUE(says(fault("t.stl", bytes.substr(0, 100)), {"ends after 0 of the 1 triangles"}));
 }
 
