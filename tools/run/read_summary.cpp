@@ -9,6 +9,7 @@
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/score_fields.hpp"
+#include "tools/run/separated_text.hpp"
 #include "tools/run/summary_json.hpp"
 
 namespace gnbv {
@@ -31,7 +32,7 @@ class SummaryReader {
           "{}: holds no summary.json: no run, or one that is not finished; {} finishes it",
           run.string(), command_to_resume(run)));
     }
-    json_ = Json::parse(read_file(path_), nullptr, false);
+    json_ = Json::parse(read_json_text(path_), nullptr, false);
     if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
   }
 

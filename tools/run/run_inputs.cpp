@@ -79,7 +79,7 @@ std::vector<RunInput> read_inputs(const fs::path& run) {
   const fs::path path = run / kInputsFile;
   if (!fs::exists(path)) return inputs;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = Json::parse(read_json_text(path));
     for (const Json& input : json.at("inputs")) {
       inputs.push_back({input.at("key"), input.at("name"), input.at("sha256")});
     }

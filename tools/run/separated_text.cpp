@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/core/error.hpp"
+#include "sim/core/file.hpp"
 
 namespace gnbv {
 
@@ -52,6 +53,26 @@ std::vector<std::string> csv_fields(std::string_view record) {
 
 std::string to_string(const TextPlace& place) {
   return fmt::format("{}:{}", place.file.string(), place.line);
+}
+
+std::string read_json_text(const std::filesystem::path& file) {
+  constexpr int kMostDeep = 200;
+  std::string text = read_file(file);
+  int deep = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') is_quoted = !is_quoted;
+    if (is_quoted) {
+      i += text[i] == '\\' ? 1 : 0;
+      continue;
+    }
+    deep += text[i] == '[' || text[i] == '{' ? 1 : 0;
+    deep -= text[i] == ']' || text[i] == '}' ? 1 : 0;
+    if (deep > kMostDeep) {
+      throw BadInput(fmt::format("{}: its JSON is more than {} deep", file.string(), kMostDeep));
+    }
+  }
+  return text;
 }
 
 void for_each_line(std::string_view text, const std::filesystem::path& file,

@@ -1,4 +1,4 @@
-// Text files of numbers in columns, with errors that name file and line.
+// Text files of numbers in columns, with errors that name file and line; the text of JSON files.
 #pragma once
 
 #include <exception>
@@ -31,6 +31,10 @@ struct TextPlace {
   int line;
 };
 std::string to_string(const TextPlace& place);
+
+/// The text of a JSON file. Throws BadInput naming it where its lists lie deeper than whoever
+/// copies or prints a value can go: they call themselves for each level.
+std::string read_json_text(const std::filesystem::path& file);
 
 /// Calls `take` with each line and its place; lines count from `first`.
 void for_each_line(std::string_view text, const std::filesystem::path& file,

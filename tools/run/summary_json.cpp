@@ -11,6 +11,7 @@
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/score_fields.hpp"
+#include "tools/run/separated_text.hpp"
 
 namespace gnbv {
 namespace {
@@ -212,7 +213,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
 
 void rescore_summary(const fs::path& run, const MissionScore& score) {
   const fs::path path = run / kSummaryFile;
-  const Json json = Json::parse(read_file(path), nullptr, false);
+  const Json json = Json::parse(read_json_text(path), nullptr, false);
   if (!json.is_object() || !json.contains("schema") || !json.contains("coverage")) {
     throw BadInput(fmt::format("{}: is not the summary of a run", path.string()));
   }

@@ -8,7 +8,6 @@
 
 #include "scenarios/validation_error.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -55,7 +54,7 @@ Vec3 vector_at(const nlohmann::json& json, const char* key) {
 RenderView read_camera(const std::filesystem::path& path) {
   RenderView view;
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    const nlohmann::json json = nlohmann::json::parse(read_json_text(path));
     if (!json.is_object()) throw BadInput("is no object of keys and values");
     for (const auto& [key, value] : json.items()) {
       if (key == "position_m" || key == "target_m" || key == "fov_y_deg") continue;

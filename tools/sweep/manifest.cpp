@@ -110,7 +110,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   Manifest manifest;
   std::set<std::tuple<std::string, std::string, std::uint64_t>> seen;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = Json::parse(read_json_text(path));
     if (json.at("schema") != 1) {
       throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
                                  json.at("schema").dump()));

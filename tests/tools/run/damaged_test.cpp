@@ -11,6 +11,7 @@
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/coverage_csv.hpp"
 #include "tools/run/frames_folder.hpp"
+#include "tools/run/summary_json.hpp"
 #include "tools/run/tour_files.hpp"
 
 namespace gnbv {
@@ -148,6 +149,15 @@ TEST_F(DamagedFile, IsNamedWithTheLine) {
     EXPECT_TRUE(test::says(test::fault_of(readers_.at(file)), {file + words}));
     write_file_atomically(run_ / file, good);
   }
+}
+
+TEST_F(DamagedFile, ListsDeeperThanTheStackAreRefused) {
+  const std::string deep(200'000, '['), brackets(300, '[');
+  write_file_atomically(run_ / kSummaryFile, R"({"\"":")" + brackets + R"(","schema":)" + deep);
+  EXPECT_TRUE(test::says(test::fault_of([&] { read_run(run_); }),
+                         {"summary.json: its JSON is more than 200 deep"}));
+  write_file_atomically(run_ / kSummaryFile, R"({"\"":")" + brackets + "\"}");
+  EXPECT_TRUE(test::says(test::fault_of([&] { read_run(run_); }), {"schema"}));
 }
 
 }  // namespace
