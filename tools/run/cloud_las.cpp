@@ -26,7 +26,7 @@ void read_las_cloud(CloudPoints& to) {
   const std::uint64_t first = at(96, std::uint32_t{});
   const std::uint64_t stride = at(105, std::uint16_t{});
   std::uint64_t points = at(107, std::uint32_t{});
-  if (has_wide_count) points = at(247, std::uint64_t{});
+  if (has_wide_count && at(247, std::uint64_t{}) > 0) points = at(247, std::uint64_t{});
   if (stride < 12) to.fail(fmt::format("has points of {} bytes, too few for x, y, z", stride));
   const std::uint64_t held = first > bytes.size() ? 0 : (bytes.size() - first) / stride;
   if (held < points) {

@@ -23,7 +23,7 @@ bool has_decimal_commas(std::string_view line) {
     const std::string_view word = take_word(line);
     const auto commas = [](std::string_view of) { return std::count(of.begin(), of.end(), ','); };
     const auto may_be_decimal = [&](std::string_view of) {
-      return commas(of) == 1 && of.find('.') == of.npos;
+      return commas(of) == 1 && of.find_first_not_of("+-0123456789,eE") == of.npos;
     };
     if (word.empty() || commas(before) > 1) return false;
     const bool are_parted = before.ends_with(',') || word.starts_with(',');

@@ -1,6 +1,5 @@
 #include "tools/run/cloud_file.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/mesh/mesh_file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -28,19 +28,13 @@ std::string bytes_of(T value) {
   return {reinterpret_cast<const char*>(&value), sizeof(value)};
 }
 
-TEST(CloudFile, ReadsBackWhatItWrote) {
-  TempFolder temp;
-  write_cloud_ply(kPoints, temp.path() / "a.ply");
-  EXPECT_EQ(read_cloud(temp.path() / "a.ply"), kPoints);
-  write_cloud_ply({}, temp.path() / "empty.ply");
-  EXPECT_TRUE(read_cloud(temp.path() / "empty.ply").empty());
-}
-
 TEST(CloudFile, ColoursAndViewsFollowEachPoint) {
   TempFolder temp;
   const std::vector<Rgb8> colours = {{1, 2, 3}, {4, 5, 6}, {250, 251, 252}};
   const std::vector<std::int32_t> views = {-1, 0, 70'000};
   const fs::path path = temp.path() / "a.ply";
+  write_cloud_ply({}, path);
+  EXPECT_TRUE(read_cloud(path).empty());
   write_cloud_ply(kPoints, path, {.colours = colours, .views = views});
   EXPECT_EQ(read_cloud(path), kPoints);
   std::string records;
@@ -59,9 +53,8 @@ TEST(CloudFile, ColoursAndViewsFollowEachPoint) {
 
 TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
   TempFolder temp;
-  std::string text, labelled;
+  std::string labelled;
   for (const Vec3f& p : kPoints) {
-    text += fmt::format("{} {} {}\n", p.x(), p.y(), p.z());
     labelled += bytes_of(std::uint8_t{9});
     for (const float x : p) labelled += bytes_of(static_cast<double>(x));
     labelled += bytes_of(std::int16_t{7});
@@ -78,7 +71,6 @@ TEST(CloudFile, EveryLayoutGivesTheSamePoints) {
             kPoints);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("bytes after all that its header announces"), std::string::npos);
-  EXPECT_EQ(read_cloud(written(temp, "d.xyz", "# x y z\n\n" + text)), kPoints);
   EXPECT_EQ(read_cloud(
                 written(temp, "m.xyz",
                         "\xEF\xBB\xBF# x y z\r\r" + std::string("1 2 3\r-4.5 0 1e-3\r0.1 7 -8\r"))),
@@ -118,21 +110,14 @@ TEST(CloudFile, WhatIsNoCloudIsNamedWithItsLine) {
   std::ifstream in(temp.path() / "whole.ply", std::ios::binary);
   std::string whole{std::istreambuf_iterator<char>(in), {}};
   const auto complaint_of = [](const fs::path& file) {
-    try {
-      read_cloud(file);
-    } catch (const BadInput& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::fault_of([&] { read_cloud(file); });
   };
   const std::string cut = complaint_of(written(temp, "cut.ply", whole.substr(0, whole.size() - 1)));
   EXPECT_NE(cut.find("cut.ply: ends before"), std::string::npos) << cut;
   const std::string prose = complaint_of(written(temp, "prose.ply", "Lorem ipsum\n"));
   EXPECT_NE(prose.find("prose.ply: is no PLY"), std::string::npos) << prose;
-  EXPECT_NE(complaint_of(written(temp, "c.xyz", "1.5 2 3\r0,5 1,25 3,5\r")).find("c.xyz:2: "),
-            std::string::npos);  // decimal commas
-  const std::string line = complaint_of(written(temp, "line.xyz", "1 2 3\n1 2\n"));
-  EXPECT_NE(line.find("line.xyz:2"), std::string::npos) << line;
+  EXPECT_NE(complaint_of(written(temp, "c.xyz", "1.5 2 3\r1 2\r")).find("c.xyz:2: "),
+            std::string::npos);
   EXPECT_NE(complaint_of(written(temp, "a.stl", "")).find(".ply, .pcd, .las"), std::string::npos);
   EXPECT_NE(complaint_of(temp.path() / "absent.ply").find("absent.ply"), std::string::npos);
 }

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <random>
 
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/run/cloud_file.hpp"
 
@@ -30,12 +30,8 @@ class CloudFormats : public testing::Test {
     return read_cloud(written(name, content), Vec3::Zero(), &warnings_);
   }
   std::string complaint_of(const std::string& name, const std::string& content) {
-    try {
-      points_of(name, content);
-    } catch (const BadInput& error) {
-      return std::string(error.what()).substr(temp_.path().string().size() + 1);
-    }
-    return "";
+    const std::string fault = test::fault_of([&] { points_of(name, content); });
+    return fault.empty() ? "" : fault.substr(temp_.path().string().size() + 1);
   }
 
   TempFolder temp_;
@@ -127,6 +123,8 @@ TEST_F(CloudFormats, TextsThatMissSomethingAreNamedWithTheirLine) {
             "a.xyz:1: '1,,2,3' does not begin with three numbers");
   EXPECT_EQ(complaint_of("a.txt", "east north up\n1 2 3\n"),
             "a.txt:1: 'east north up' does not begin with three numbers");
+  EXPECT_EQ(complaint_of("a.csv", "X [m],Y [m],Z [m]\n1,2,3\n"),
+            "a.csv:1: 'X [m],Y [m],Z [m]' does not begin with three numbers");
   EXPECT_EQ(complaint_of("a.pts", "3\n1 2 3\n4 5 6\n"),
             "a.pts: holds 2 of the 3 points that it announces");
   EXPECT_EQ(complaint_of("a.pts", "1\n1 2 3\n4 5 6\n"),
@@ -177,6 +175,9 @@ TEST_F(CloudFormats, LasKeepsItsMillimetresBesideTheOffsetOfAMapGrid) {
       EXPECT_NE(complaint_of("a.las", whole.substr(0, size)), "") << size;
     }
   }
+  std::string old_count = las_of(4, {{1, -2, 3}});
+  std::swap(old_count[107], old_count[247]);
+  EXPECT_EQ(points_of("a.las", old_count).size(), 1U);
   std::string packed = las_of(2, {});
   packed[104] = '\x81';
   EXPECT_NE(complaint_of("a.laz", packed).find("write('a.las')"), std::string::npos);

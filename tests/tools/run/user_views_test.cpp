@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/load.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/rng.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -21,13 +21,8 @@ std::vector<ViewPose> views_in(const std::string& text) {
 
 /// What is said about the text, from the file's name on.
 std::string complaint_about(const std::string& text) {
-  try {
-    views_in(text);
-  } catch (const BadInput& error) {
-    const std::string what = error.what();
-    return what.substr(what.rfind("/views") + 1);
-  }
-  return "";
+  const std::string what = test::fault_of([&] { views_in(text); });
+  return what.substr(what.rfind("/views") + 1);
 }
 
 ViewPose drawn_view(std::uint64_t i) {
