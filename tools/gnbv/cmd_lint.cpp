@@ -9,6 +9,7 @@
 
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mesh_lint/mesh_report.hpp"
@@ -75,7 +76,7 @@ void lint(const LintOptions& options) {
   }
   if (options.json && !reports.empty()) fmt::print("{}", json_of(reports));
   if (!options.json) {
-    fmt::print("{}", fmt::join(reports, "\n"));
+    fmt::print("{}", printable(fmt::to_string(fmt::join(reports, "\n"))));
     if (options.meshes.size() > 1) {
       fmt::print("{}{}", reports.empty() ? "" : "\n", sum_of(options.meshes.size(), tally));
     }
