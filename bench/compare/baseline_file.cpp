@@ -135,7 +135,7 @@ std::string to_json(const Baseline& baseline) {
                {"termination", baseline.termination},
                {"metrics", metrics}};
   if (baseline.result_sha256) json["result_sha256"] = *baseline.result_sha256;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnbv

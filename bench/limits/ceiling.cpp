@@ -184,7 +184,7 @@ std::string ceiling_json(const Scenario& scenario, const Ceiling& ceiling, doubl
     out[row.key] = {{"0.05", row.share[0]}, {"0.10", row.share[1]}, {"0.50", row.share[2]}};
   }
   out["wall_s"] = wall_s;
-  return out.dump(2) + "\n";
+  return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string ceiling_text(const Ceiling& ceiling, double wall_s) {

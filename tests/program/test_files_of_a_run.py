@@ -1,5 +1,6 @@
 """What is made of a run: pictures, surfaces and exports; of damaged, bare and old ones, too."""
 import json
+import os
 import re
 import shutil
 
@@ -13,6 +14,21 @@ SMALL = '--width 320 --height 240'
 @pytest.fixture
 def copy(copy_of):
     return copy_of(*FRAMES)
+
+
+def test_names_of_files_need_not_be_utf_8(gnbv, tmp_path):
+    name = os.fsdecode(b'caf\xe9')
+    gnbv('asset', 'smoke', '-o', f'{name}.obj', '--json').check({0})
+    gnbv('run', 'smoke', '--quiet', '--mesh', f'{name}.obj', '--frames', '--out', name).check({0})
+    for line in ('check NAME --against b.json --update', 'check NAME --against b.json',
+                 'score NAME --json', 'ceiling NAME --json --quiet',
+                 'surface NAME/cloud.ply --json -o cloud', 'export NAME --format colmap'):
+        gnbv(*line.replace('NAME', name).split()).check({0})
+    (tmp_path / f'{name}.yaml').write_text(
+        'scenarios: {name: smoke, scenario: smoke, mesh: ' + f'{name}.obj}}\n'
+        'set: {planner.termination.max_iterations: 1}\n', errors='surrogateescape')
+    for _ in range(2):  # the folder is still its own
+        gnbv('sweep', f'{name}.yaml', '--quiet', '--out', 'cells').check({0})
 
 
 # ---- pictures ----

@@ -71,7 +71,7 @@ std::string marker_text(const RunRecord& record, std::string_view format,
       {"utility", utility_label(record.scenario.planner.utility)},
       {"seed", record.scenario.seed},
       {"files", files}};
-  return marker.dump(2) + "\n";
+  return marker.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 /// The folder beside it that is filled ("part"), and what was there before on its way out ("old").

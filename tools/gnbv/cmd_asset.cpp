@@ -77,7 +77,8 @@ void print_facts(const AssetOptions& options, const TriangleMesh& mesh) {
         {"area_m2", surface_area_m2(mesh)},
         {"bounds_m", {{"min", {lo.x(), lo.y(), lo.z()}}, {"max", {hi.x(), hi.y(), hi.z()}}}}};
     if (options.name == kRandom) facts.update({{"kind", options.kind}, {"seed", *options.seed}});
-    return fmt::print("{}\n", facts.dump(2));
+    return fmt::print("{}\n",
+                      facts.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
   for (const std::string& file : files) fmt::print("{}\n", file);
   if (options.name == kRandom) {

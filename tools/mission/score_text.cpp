@@ -94,7 +94,7 @@ std::string score_json(const Scored& scored, bool is_run) {
                                  {"floor_z_m", scored.floor_z_m}};
   json.update(nlohmann::ordered_json::parse(score_json(scored.score, is_run)));
   json["wall_s"] = {{"reference", scored.reference_s}, {"score", scored.score_s}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gnbv

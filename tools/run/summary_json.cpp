@@ -208,7 +208,7 @@ std::string summary_json(const Scenario& scenario, const MissionResult& r,
       {"views_sha256", views_sha256(r.views)},
       {"result_sha256", result_sha256(r)},
   };
-  return with_score(json, score).dump(2) + "\n";
+  return with_score(json, score).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void rescore_summary(const fs::path& run, const MissionScore& score) {
@@ -222,7 +222,8 @@ void rescore_summary(const fs::path& run, const MissionScore& score) {
     throw BadInput(fmt::format("{}: /schema: {} is none that this version knows, 1 to {}",
                                path.string(), schema.dump(), kSummarySchema));
   }
-  const std::string summary = with_score(json, score).dump(2) + "\n";
+  const std::string summary =
+      with_score(json, score).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   // killed in between, the run is one without a curve, which scoring gives back, not one of two
   fs::remove(run / kCoverageFile);
   write_file_atomically(path, summary);

@@ -82,7 +82,7 @@ CloudSurface surface_of_cloud(const fs::path& cloud, const Vec3& offset_m,
       {"faces", faces},
       {"area_m2", area_m2},
       {"error_m", {{"mean", mean_m}, {"p95", p95_m}, {"max", errors.back()}}}};
-  made.json = json.dump(2) + "\n";
+  made.json = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   made.text = fmt::format(
       "{}: {} points, thinned to leaves of {:.3g} m; {} faces, {:.4g} m2\n"
       "error, the points' distance to the surface: mean {:.4f} m, 95 % within {:.4f} m, largest "

@@ -52,6 +52,11 @@ std::string one_line(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// The whole path, as a manifest has it.
+std::string path_in_manifest(const fs::path& yaml) {
+  return Json::parse(one_line(fs::absolute(yaml).lexically_normal().string()));
+}
+
 /// A list with one item a line: readable, and small with many of them.
 std::string by_line(const std::vector<Json>& items) {
   std::string text = "[";
@@ -98,8 +103,7 @@ void write_manifest(const fs::path& folder, const fs::path& yaml, std::span<cons
       fmt::format("{{\n\"schema\": 1,\n\"version\": \"{}\",\n\"source_id\": \"{}\",\n\"file\": "
                   "{},\n\"text\": {},\n"
                   "\"cells\": {}\n}}\n",
-                  GNBV_VERSION, flying_source_id(),
-                  one_line(fs::absolute(yaml).lexically_normal().string()),
+                  GNBV_VERSION, flying_source_id(), one_line(path_in_manifest(yaml)),
                   one_line(read_file(yaml)), by_line(items)));
 }
 
@@ -140,7 +144,7 @@ std::vector<Cell> cells_of_manifest(const fs::path& folder) {
 void require_folder_of(const fs::path& folder, const fs::path& yaml) {
   const auto head = read_manifest(folder);
   std::error_code ignored;
-  const std::string file = fs::absolute(yaml).lexically_normal().string();
+  const std::string file = path_in_manifest(yaml);
   if (!head || head->file == file || fs::equivalent(head->file, file, ignored)) return;
   throw BadInput(
       fmt::format("{}: is of {}, not of {}; --replace takes it for the latter, and its cells stay",
