@@ -1,11 +1,13 @@
 """A run goes on only from a record that is its own, in the world that it began in."""
 import fcntl
+import json
 import re
 import resource
 import shutil
+import subprocess
 
 import pytest
-from program import difference, files_of, until
+from program import difference, end_of, files_of, hash_of, summary, until
 
 FEW = ['--quiet', '--set', 'planner.termination.max_iterations=8']
 SMOKE = ('run', 'smoke', *FEW, '--out')
@@ -91,6 +93,35 @@ def test_a_finished_run_stays_as_it_is(run, copy_of, whole):
     (left / 'cloud.ply').unlink()  # what is missing is made again
     run(RESUME)
     assert not difference(left, whole(*SMOKE).path)
+
+
+def test_what_a_finished_run_lacks_is_made_or_refused(run, copy_of, whole):
+    left = copy_of(*SMOKE)
+    run(f'{RESUME} --frames --candidates', 'candidates.jsonl: ', code=2)
+    run(f'{RESUME} --frames')
+    poses = left / 'frames/poses.csv'
+    all_rows = poses.read_text()
+    poses.write_text(''.join(all_rows.splitlines(True)[:-1]))  # as of a resume without --frames
+    run(f'{RESUME} --frames')
+    assert poses.read_text() == all_rows
+    assert not summary(left)['ceiling_at_0.05']
+    run(f'{RESUME} --frames --ceiling')
+    assert summary(left)['ceiling_at_0.05']
+    run(f'{RESUME} --frames --ceiling', 'nothing to resume')
+
+
+def test_views_given_to_a_run_that_had_ended_are_flown(gnbv, run, tmp_path):
+    rows = ['x,y,z,yaw_deg\n', '3.2,0,2,180\n', '0,3.2,2.5,-90\n']
+    (tmp_path / 'all.csv').write_text(''.join(rows))
+    run('run smoke --quiet --utility route --views all.csv --out whole')
+    for text in (rows[:2], [rows[0], rows[2]]):
+        process = gnbv.start(*'run smoke --quiet --utility route --views - --out run --resume'
+                             .split(), stdin=subprocess.PIPE)
+        process.stdin.write(''.join(text).encode())
+        process.stdin.close()
+        said = end_of(process).check({0}).out
+    assert json.loads(said.splitlines()[-1])['event'] == 'end'
+    assert hash_of(tmp_path / 'run') == hash_of(tmp_path / 'whole')
 
 
 @pytest.mark.parametrize('words', ['score run', 'report run -o r.html', 'plot run -o plots',

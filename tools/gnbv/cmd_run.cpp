@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "bench/compare/paper_table.hpp"
 #include "planner/planners.hpp"
@@ -81,12 +82,29 @@ void print_summary(const RunOptions& options, const Scenario& scenario, const fs
   }
 }
 
+/// Whether there are frames of the last view: a run that was resumed without them lacks some.
+bool has_all_frames(const fs::path& run) {
+  try {
+    const std::optional<std::uint64_t> views = read_summary(run).iterations;
+    return views && std::cmp_equal(read_frames(run).frames.back().iteration + 1, *views);
+  } catch (const BadInput&) {
+    return false;
+  }
+}
+
+/// Whether a finished run has what is asked for beside its record.
+bool has_extras(const MissionOptions& asked) {
+  return (!asked.frames || has_all_frames(asked.out)) &&
+         (!asked.candidates || RunFiles(asked.out).find(kCandidatesFile)) &&
+         (asked.ceiling != CeilingFrom::search || read_run_figures(asked.out).ceiling);
+}
+
 /// Whether the run to be resumed has ended by itself, and all that is asked for is there: its
 /// summary is printed, and no file of it is touched.
 bool has_ended(const RunOptions& options, const Scenario& scenario) {
   const MissionOptions& mission = options.mission;
   if (!mission.resume || !RunFiles(mission.out).is_finished() || mission.piped_views) return false;
-  if (mission.frames && !has_frames(mission.out)) return false;
+  if (!has_extras(mission)) return false;
   need_usable(mission.out, scenario, mission.resume);
   need_unchanged(mission.out, scenario);
   const std::string ended = *read_summary(mission.out).termination;

@@ -227,14 +227,14 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
     inputs.replay = directory.recorded_decisions();
     inputs.sources.user_scores = user_scores;
     inputs.sources.route = std::move(route);
-    std::optional<FramesRecorder> frames;
-    if (options.frames) {
-      inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
-    }
     std::optional<DecisionLog> decisions;
     if (options.candidates) {
       inputs.observers.push_back(
           &decisions.emplace(scenario, directory.path(), directory.recorded().size()));
+    }
+    std::optional<FramesRecorder> frames;
+    if (options.frames) {
+      inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
     }
     std::optional<ViewPipe> pipe;
     if (options.piped_views) {

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::string_view kNotWritten =
-    "the interrupted run did not write its candidates: resume it without --candidates";
+    "the run did not write its candidates: resume it without --candidates";
 
 constexpr std::array<std::pair<const char*, double Score::*>, 5> kTerms = {
     {{"utility", &Score::value},

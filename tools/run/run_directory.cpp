@@ -137,7 +137,9 @@ void RunDirectory::need_as_recorded(const ViewRecord& view) const {
 
 void RunDirectory::need_as_recorded(const MissionResult& result) const {
   const bool is_short = result.views.size() < recorded_.size();
-  const bool is_other = !finished_sha256_.empty() && result_sha256(result) != finished_sha256_;
+  // who is given more views than before goes on from where the run had ended
+  const bool is_other =
+      !given_views_ && !finished_sha256_.empty() && result_sha256(result) != finished_sha256_;
   if (!is_short && !is_other) return;
   const std::string what =
       is_short ? fmt::format("flown again it ends after {} views ({}), recorded were {}",
