@@ -30,6 +30,18 @@ std::string host_name() {
   return name.data();
 }
 
+/// Where links lead, so that they stay. Throws BadInput for a device or a pipe, whose place a
+/// renamed file would take.
+fs::path behind_links(fs::path path) {
+  constexpr int kMostLinks = 40;  // as Linux follows
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
+    path = path.parent_path() / fs::read_symlink(path);
+  }
+  if (!fs::is_other(path, ignored)) return path;
+  throw BadInput(fmt::format("{}: is a device or a pipe, not a file", path.string()));
+}
+
 /// Named after the process and its machine, since others may write the same file. The extension
 /// stays last: some libraries choose the format by it.
 fs::path temporary_of(const fs::path& path) {
@@ -123,12 +135,13 @@ void write_file_atomically(const fs::path& path, std::string_view content, Lasti
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write,
                            Lasting lasting) {
-  const fs::path part = temporary_of(path);
+  const fs::path file = behind_links(path);
+  const fs::path part = temporary_of(file.parent_path() / path.filename());
   try {
     write(part);
     if (lasting == Lasting::power_failures) sync_to_disk(part);
-    fs::rename(part, path);
-    if (lasting == Lasting::power_failures) sync_to_disk(path.parent_path());
+    fs::rename(part, file);
+    if (lasting == Lasting::power_failures) sync_to_disk(file.parent_path());
   } catch (...) {
     std::error_code ignored;
     fs::remove(part, ignored);
@@ -201,7 +214,7 @@ FileLock::~FileLock() {
 }
 
 bool is_locked(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);  // it may be another user's
   if (descriptor < 0) return false;
   const bool is_free = flock(descriptor, LOCK_SH | LOCK_NB) == 0;
   close(descriptor);

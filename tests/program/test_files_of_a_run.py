@@ -167,6 +167,10 @@ def test_an_export_writes_over_nothing_but_an_export(run, copy, tmp_path):
     (copy / 'export/.tum.gnbv-old').mkdir()
     run('export run --format tum')
     assert [p.name for p in (copy / 'export').iterdir()] == ['tum']
+    (tmp_path / 'elsewhere').mkdir()
+    (tmp_path / 'linked').symlink_to('elsewhere')
+    run('export run --format tum -o linked')
+    assert (tmp_path / 'linked').is_symlink() and (tmp_path / 'elsewhere/gnbv-export.json').exists()
 
 
 @pytest.mark.parametrize('form', ['tum', 'colmap'])

@@ -115,6 +115,7 @@ void write_export_folder(const RunRecord& record, std::string_view format, const
   // "." and "a/" have no name of their own to rename to
   fs::path place = fs::absolute(folder).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
+  if (fs::is_symlink(place) && fs::exists(place)) place = fs::canonical(place);  // the link stays
   const fs::path part = beside(place, "part");
   fs::path made;
   const auto undo = [&] {

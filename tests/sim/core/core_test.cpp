@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -142,6 +143,22 @@ class FileLimit {
   rlimit before_{};
 };
 
+TEST(WriteFile, LinksStayAndSoDoesWhatIsNoFile) {
+  const TempFolder temp;
+  const fs::path link = temp.path() / "link.csv";
+  fs::create_directory(temp.path() / "shared");
+  fs::create_symlink("shared/target", link);
+  for (const std::string content : {"new", "changed"}) {
+    write_file_atomically(link, content);
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(read_file(temp.path() / "shared/target"), content);
+  }
+  const fs::path pipe = temp.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(write_file_atomically(pipe, "x"), BadInput);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
 TEST(WriteFile, ThatDoesNotFitIsNoBadInputAndLeavesNothing) {
   const TempFolder temp;
   const fs::path file = temp.path() / "file";
@@ -193,6 +210,9 @@ TEST(FileLock, HasOneHolderAndNoneOnceItIsGone) {
     const std::optional<FileLock> first = FileLock::take(path);
     ASSERT_TRUE(first.has_value());
     EXPECT_TRUE(is_locked(path));
+    fs::permissions(path, fs::perms::owner_read);  // as of another user's
+    EXPECT_TRUE(is_locked(path));
+    fs::permissions(path, fs::perms::owner_all);
     EXPECT_FALSE(FileLock::take(path).has_value());
     fs::remove(path);  // as a holder does that has done its work: the name is free
     const std::optional<FileLock> second = FileLock::take(path);
