@@ -68,6 +68,14 @@ def test_compare_flies_again_what_failed_in_an_earlier_call(run, tmp_path):
     assert failed in runs(tmp_path)
 
 
+def test_a_file_of_rows_without_a_mission_is_none(run, tmp_path):
+    for _ in range(2):  # the next call would refuse it
+        run(f'compare smoke --utilities proposed,isler --seeds 1 --no-ceiling {FEW} --out . '
+            '--missions m.csv --set planner.validity.z_min_m=0 --set start.position_m=[0,0,0.5] '
+            '--set start.jitter_m=[0,0,0]', 'start.position', code=1)
+        assert not (tmp_path / 'm.csv').exists()
+
+
 @pytest.mark.parametrize('option', ['--mesh m.obj', '--seed 2', '--set planner.cloud.leaf_m=0.1',
                                     '--bounds auto', '--seeds 3', '--jobs 2', '--out o'])
 def test_compare_of_a_sweep_takes_nothing_that_would_fly_other_missions(run, option):
@@ -120,6 +128,7 @@ def test_compare_loses_no_more_than_the_ceiling_of_a_mesh_that_is_gone(run, tmp_
      ['score.region_m', 'different voxels']),
     ('compare smoke --utilities proposed --variant b:score.budget_m=40,score.budget_views=4',
      ['smoke: proposed and b', 'score.budget_']),
+    ('compare smoke --utilities proposed,isler --missions none/m.csv', ['none/m.csv']),
     ('compare smoke --utilities proposed', []),
     ('compare smoke --utilities proposed,isler --seeds 0', []),
     ('compare --utilities proposed,isler', []),

@@ -111,6 +111,12 @@ def test_a_folder_is_refused_before_an_oracle_plans(run, tmp_path):
     assert not (tmp_path / 'cache').exists()
 
 
+def test_a_current_folder_that_was_removed_is_named(gnbv, tmp_path):
+    gone = tmp_path / 'gone'
+    gnbv('run', 'smoke', preexec_fn=lambda: (gone.mkdir(), os.chdir(gone), gone.rmdir())).check(
+        {2}, ['the current folder: '])
+
+
 def test_a_run_repeats_from_its_own_folder(run, tmp_path):
     run('run smoke --seed 3 --out a', 'a')
     run('run a/scenario.yaml --threads 1 --out b')

@@ -62,6 +62,16 @@ def test_a_cell_that_failed_is_named(sweep, tmp_path):
     assert ',inside,default,1,failed,,' in (tmp_path / 'o/results.csv').read_text()
     sweep('f.yaml --out o --index 1', code=1)
     sweep('f.yaml --out o --index 0')
+    record, = (tmp_path / 'o/cells').glob('*.failed.json')
+    assert json_of(record)['exit_code'] == 2 and record.name.startswith(json_of(record)['id'])
+    record.write_text('{"failure": "as before"}')
+    sweep('f.yaml --out o --quiet', 'as before', code=1)
+    sweep('f.yaml --out o --quiet --retry-failed', 'gnbv: start.position', code=1)
+
+
+def test_the_status_of_a_folder_that_cannot_be_written_is_shown(sweep, tmp_path):
+    (tmp_path / 'o/results.csv').mkdir(parents=True)
+    sweep('s.yaml --out o --status', 'all', 'gnbv: o/results.csv: cannot write')
 
 
 def test_lists_without_a_folder(sweep, tmp_path):

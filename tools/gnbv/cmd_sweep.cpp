@@ -12,6 +12,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/sweep/manifest.hpp"
 #include "tools/sweep/slurm.hpp"
+#include "tools/terminal/say.hpp"
 
 namespace gnbv {
 namespace {
@@ -99,10 +100,17 @@ void print_table(const std::vector<Cell>& cells, const std::vector<CellOutcome>&
 void report(const SweepOptions& options, const std::vector<Cell>& cells,
             const std::vector<CellOutcome>& outcomes) {
   const fs::path results = options.run.folder / "results.csv";
-  write_file_atomically(results, results_csv(cells, outcomes));
+  std::string written = results.string() + "\n";
+  try {
+    write_file_atomically(results, results_csv(cells, outcomes));
+  } catch (const BadInput& cannot) {  // one may look at a folder of others
+    if (!options.status) throw;
+    say(cannot.what());
+    written.clear();
+  }
   if (options.json) return fmt::print("{}", cells_json(cells, outcomes));
   print_table(cells, outcomes);
-  fmt::print("{}\n", results.string());
+  fmt::print("{}", written);
 }
 
 void show_status(const SweepOptions& options, const std::vector<Cell>& cells) {

@@ -79,10 +79,11 @@ int say_why(const std::exception& error) {
     return 1;
   }
   if (const auto* const file = dynamic_cast<const std::filesystem::filesystem_error*>(&error)) {
+    const std::filesystem::path path = file->path1().empty() ? "the current folder" : file->path1();
     try {
-      gnbv::refuse_to_write(file->path1(), file->code().value());
+      gnbv::refuse_to_write(path, file->code().value());
     } catch (const gnbv::BadInput&) {
-      gnbv::say("{}: {}", file->path1().string(), file->code().message());
+      gnbv::say("{}: {}", path.string(), file->code().message());
       return 2;
     } catch (const gnbv::OutputFailed& failed) {
       gnbv::say(failed.what());

@@ -40,7 +40,9 @@ std::string this_machine() {
 void drop_half_flown(const fs::path& folder, const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) {
     const CellFiles files = cell_files(folder, cell.id);
-    if (fs::exists(files.part) && !is_locked(files.lock)) fs::remove_all(files.part);
+    if (!fs::exists(files.part)) continue;
+    // held until it is gone: another process may begin the mission in this moment
+    if (const auto lock = FileLock::take(files.lock)) fs::remove_all(files.part);
   }
 }
 

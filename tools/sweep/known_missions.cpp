@@ -66,19 +66,19 @@ std::vector<MissionRow> rows_in(const std::filesystem::path& path) {
 }
 
 /// Puts the rows into the file, in place of those of the same missions. Other commands may have
-/// written to it since it was read.
+/// written to it since it was read. Without rows it only finds out whether it could.
 void write_rows(const std::vector<MissionRow>& rows, const std::filesystem::path& path) {
   const std::filesystem::path lock_file = path.string() + ".lock";
   std::optional<FileLock> lock;
   while (!(lock = FileLock::take(lock_file))) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  std::vector<MissionRow> file = rows_in(path);
+  std::vector<MissionRow> file = rows.empty() ? std::vector<MissionRow>() : rows_in(path);
   std::set<std::string> names;
   for (const MissionRow& row : rows) names.insert(row_name(row));
   std::erase_if(file, [&](const MissionRow& row) { return names.contains(row_name(row)); });
   file.insert(file.end(), rows.begin(), rows.end());
-  write_file_atomically(path, missions_csv(file));
+  if (!file.empty()) write_file_atomically(path, missions_csv(file));
   std::filesystem::remove(lock_file);
 }
 
@@ -91,6 +91,7 @@ BenchRuns rows_of_cells(const std::vector<Cell>& cells, const std::string& basel
   for (const Cell& cell : cells) ids.push_back(namer.id_of(cell.resolved));
 
   Rows known;
+  if (!options.missions.empty()) write_rows({}, options.missions);
   for (const MissionRow& row : rows_in(options.missions)) {
     if (has_ceiling_in_use(row, options)) known.emplace(row.id, row);
   }

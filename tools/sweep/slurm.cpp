@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
@@ -48,8 +49,10 @@ std::optional<std::size_t> max_array_size() {
 std::string batch_script(const SlurmOptions& options, std::size_t max_array_size) {
   GNBV_CHECK(options.cells > 0 && max_array_size > 0, "{} cells in arrays of {}", options.cells,
              max_array_size);
-  if (options.arguments.find('\n') != std::string::npos) {
-    throw BadInput("--slurm-args: has more than one line");
+  for (const auto& [option, text] : {std::pair("--slurm-args", options.arguments),
+                                     std::pair("--out", full_path(options.folder))}) {
+    if (text.find('\n') == std::string::npos) continue;
+    throw BadInput(fmt::format("{}: has more than one line, and sbatch reads one", option));
   }
   const std::size_t chunk = (options.cells + max_array_size - 1) / max_array_size;
   const std::size_t tasks = (options.cells + chunk - 1) / chunk;

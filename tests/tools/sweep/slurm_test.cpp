@@ -69,11 +69,9 @@ TEST(BatchScript, WhatSbatchWarnsOfIsNoPartOfTheId) {
   EXPECT_FALSE(fs::exists(temp.path() / "it's.sbatch.stderr"));
 }
 
-TEST(BatchScript, ArgumentsOfTwoLinesAreRefused) {
-  SlurmOptions options;
-  options.cells = 1;
-  options.arguments = "--time=1\nrm -rf /";
-  EXPECT_THROW(batch_script(options, 10), BadInput);
+TEST(BatchScript, WhatTakesTwoLinesIsRefused) {
+  EXPECT_THROW(batch_script({.folder = "o", .cells = 1, .arguments = "a\nb"}, 10), BadInput);
+  EXPECT_THROW(batch_script({.folder = "a\nb", .cells = 1}, 10), BadInput);
 }
 
 }  // namespace
