@@ -442,17 +442,8 @@ def test_the_bridge_to_ros_flies_what_comes_by_its_topics(gnbv, tmp_path):
     bridge = REPOSITORY / "examples/ros_bridge.py"
     (tmp_path / "bridge.py").write_text(f"{ROS}\nexec(open({str(bridge)!r}).read())\n")
     shared = set(pathlib.Path("/dev/shm").glob("gnbv-*"))
-    gnbv(
-        "run",
-        "smoke",
-        "--utility",
-        "route",
-        "--views",
-        f"|{sys.executable} bridge.py",
-        "--out",
-        "r",
-        "--quiet",
-    ).check({0})
+    views = f"|{sys.executable} bridge.py"
+    gnbv(*"run smoke --utility route --out r --quiet --views".split(), views).check({0})
     rows = (tmp_path / "r/views.csv").read_text().splitlines()
     assert [row.split(",")[6] for row in rows[1:]] == ["flown"] * 3
     assert set(pathlib.Path("/dev/shm").glob("gnbv-*")) <= shared

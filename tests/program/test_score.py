@@ -54,7 +54,7 @@ def changed(path, change):
 
 def test_updates_a_run_to_the_very_bytes_that_it_wrote_itself(score, flown, copy):
     def damage(old):  # of schema 1, and with figures that are wrong
-        old['schema'] = 1
+        old.update(schema=1, auc={'views': 0.5})  # which later ones do not have
         old['coverage']['final']['0.05'] = 0.123
         for key in SCORED:
             del old[key]
@@ -86,7 +86,11 @@ def test_the_ceiling_gives_a_run_its_efforts(run, copy, tmp_path):
     found = update('--ceiling', **own)
     assert update('', **own) == found, 'by the cache'
     assert found['ceiling_at_0.05'] > 0.5
-    at_80 = found['effort_to_reach']['0.80']
+    efforts, final = found['effort_to_reach'], found['coverage']['final']['0.05']
+    assert {share: effort is None for share, effort in efforts.items()} == {
+        share: float(share) * found['ceiling_at_0.05'] > final
+        for share in ('0.80', '0.90', '0.95', '0.98', '0.99')}
+    at_80 = efforts['0.80']
     rows = [line.split(',') for line in (copy / 'coverage.csv').read_text().splitlines()[1:]]
     row = next(row for row in rows if row[0] == str(at_80['views']))
     assert float(row[3]) >= 0.8 * found['ceiling_at_0.05'] and float(row[1]) == at_80['metres']

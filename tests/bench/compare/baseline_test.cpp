@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -51,15 +50,6 @@ std::vector<std::string> with_verdict(const BaselineCheck& check, GateVerdict ve
   return names;
 }
 
-TEST(Baseline, OfARunKeepsThatRun) {
-  const Baseline baseline = baseline_of_run();
-  const BaselineCheck check = check_of(baseline, run());
-  EXPECT_EQ(with_verdict(check, GateVerdict::kept).size(), 12U);
-  EXPECT_FALSE(check.is_hash_wrong);
-  EXPECT_FALSE(check.is_termination_wrong);
-  EXPECT_EQ(check.termination, "entropy_change");
-}
-
 TEST(Baseline, AnotherEndRegressesAndACollisionAlways) {
   const auto is_wrong = [](const char* was, const char* is) {
     Baseline baseline = baseline_of_run();
@@ -100,40 +90,6 @@ TEST(Baseline, EachMetricRegressesAndImprovesBeyondItsToleranceOnly) {
     }
     metric.value = value;
   }
-}
-
-TEST(Baseline, HashCountsOnlyWhereItIsAskedFor) {
-  Baseline baseline = baseline_of_run();
-  RunFigures other = run();
-  other.result_sha256 = "def";
-  EXPECT_FALSE(check_of(baseline, other).is_hash_wrong);
-  baseline.result_sha256 = "abc";
-  EXPECT_TRUE(check_of(baseline, other).is_hash_wrong);
-  EXPECT_FALSE(check_of(baseline, run()).is_hash_wrong);
-  EXPECT_EQ(updated_baseline(other, subject(), baseline, "b.json").result_sha256, "def");
-}
-
-TEST(Baseline, AnUpdateKeepsTolerancesAndTakesTheFigures) {
-  Baseline before = baseline_of_run();
-  before.metrics[0].tolerance = 0.123;
-  before.metrics[1].better = Better::same;
-  RunFigures better = run();
-  better.coverage_final = {0.6, 0.85, 0.95};
-  const Baseline after = updated_baseline(better, subject(), before, "b.json");
-  EXPECT_EQ(after.metrics[0].value, 0.6);
-  EXPECT_EQ(after.metrics[0].tolerance, 0.123);
-  EXPECT_EQ(after.metrics[1].better, Better::same);
-}
-
-TEST(Baseline, ReadsBackWhatItWrote) {
-  TempFolder temp;
-  const fs::path file = temp.path() / "b.json";
-  Baseline written = baseline_of_run();
-  written.result_sha256 = "abc";
-  write_file_atomically(file, to_json(written));
-  const Baseline read = read_baseline(file);
-  EXPECT_EQ(to_json(read), to_json(written));
-  EXPECT_NO_THROW(check_of(read, run()));
 }
 
 TEST(Baseline, OfAnotherConfigurationOrMeshNamesEveryDifference) {

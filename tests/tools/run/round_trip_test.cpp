@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "planner/planners.hpp"
 #include "tests/support/fault.hpp"
@@ -274,85 +273,6 @@ TEST(RoundTrip, RunDirectory) {
   EXPECT_EQ(f.coverage_accurate, made.score.accurate);
   EXPECT_EQ(f.curve.accurate, made.score.curve.accurate);
   EXPECT_TRUE(f.is_noisy);
-}
-
-TEST(RoundTrip, ARunWithoutAccurateCoverageStaysReadable) {
-  const TempFolder temp;
-  MadeMission made;
-  made.score.curve.accurate.clear();
-  const fs::path run = made.written_into(temp);
-  auto old = nlohmann::ordered_json::parse(read_file(run / kSummaryFile));
-  old["coverage"].erase("accurate");
-  old["coverage"].erase("is_noisy");
-  write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");
-  const RunFigures f = read_run_figures(run);
-  EXPECT_EQ(f.coverage_final, made.score.final);
-  EXPECT_FALSE(f.coverage_accurate.has_value());
-  EXPECT_TRUE(f.curve.accurate.empty());
-  EXPECT_FALSE(f.is_noisy);
-}
-
-TEST(RoundTrip, AScoreTakesThePlaceOfAnotherAndOfNothingElse) {
-  const TempFolder temp;
-  MadeMission made;
-  const fs::path run = made.written_into(temp);
-  const std::string before = read_file(run / kSummaryFile);
-  rescore_summary(run, made.score);
-  EXPECT_EQ(read_file(run / kSummaryFile), before);
-  made.score.final[0] = 0.123;
-  rescore_summary(run, made.score);
-  EXPECT_EQ(read_run_figures(run).coverage_final[0], 0.123);
-  made.score.area_samples = 0;
-  rescore_summary(run, made.score);
-  EXPECT_EQ(read_run_figures(run).area_samples, 0U);
-  EXPECT_EQ(read_run_figures(run).energy_wh, 5e-324);
-}
-
-TEST(RoundTrip, EffortsAreThereWhenTheCeilingIsKnown) {
-  const TempFolder temp;
-  MadeMission made;
-  const fs::path run = made.written_into(temp);
-  const auto json = [&] { return nlohmann::json::parse(read_file(run / kSummaryFile)); };
-  EXPECT_TRUE(json().at("ceiling_at_0.05").is_null());
-  EXPECT_TRUE(json().at("effort_to_reach").is_null());
-  EXPECT_EQ(read_run_figures(run).ceiling, std::nullopt);
-
-  made.score.ceiling = 0.42;  // 0.95 of it is 0.399
-  made.score.before = {.profile_m = 10.0, .transfer_m = 2.0, .profile_end_s = 30.0};
-  rescore_summary(run, made.score);
-  EXPECT_EQ(read_run_figures(run).ceiling, 0.42);
-  const nlohmann::json efforts = json().at("effort_to_reach");
-  auto at_95 = nlohmann::json::parse(R"({"views": 2, "metres": 1.0, "seconds": 2.0,
-    "metres_with_profile": 13.0, "seconds_with_profile": 32.0, "wh_with_profile": null,
-    "on_one_battery": null})");
-  EXPECT_EQ(efforts.at("0.95"), at_95);
-  EXPECT_EQ(efforts.at("0.80").at("views"), 2);
-  EXPECT_TRUE(efforts.at("0.98").is_null());  // 0.4116 of the final 0.4
-  EXPECT_EQ(efforts.size(), 5U);
-  made.score.curve.energy_wh = {1.0, 1.5, 2.5};
-  made.score.curve.on_one_battery = {true, true, false};
-  rescore_summary(run, made.score);
-  at_95["wh_with_profile"] = 2.5;
-  at_95["on_one_battery"] = false;
-  EXPECT_EQ(json().at("effort_to_reach").at("0.95"), at_95);
-}
-
-TEST(RoundTrip, AnOlderScoreLeavesNothingBehind) {
-  const TempFolder temp;
-  const MadeMission made;
-  const fs::path run = made.written_into(temp);
-  const std::string whole = read_file(run / kSummaryFile);
-  auto old = nlohmann::ordered_json::parse(whole);
-  old["schema"] = 2;
-  old["auc"] = {{"views", 0.5}};
-  old["mean_coverage_over_own"] = {{"views", 0.5}};
-  for (const char* key : {"budget", "mean_coverage", "ceiling_at_0.05", "effort_to_reach"}) {
-    old.erase(key);
-  }
-  write_file_atomically(run / kSummaryFile, old.dump(2) + "\n");
-  EXPECT_TRUE(says(fault_of([&] { read_run_figures(run); }), {"schema 2 of another version"}));
-  rescore_summary(run, made.score);
-  EXPECT_EQ(read_file(run / kSummaryFile), whole);
 }
 
 }  // namespace

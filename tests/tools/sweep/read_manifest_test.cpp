@@ -21,16 +21,6 @@ std::string cell_of(const std::string& seed) {
   return R"({"index":0,"id":"ab","scenario":"s","method":"m","seed":)" + seed + "}";
 }
 
-TEST(Manifest, CellsKeepTheirOrder) {
-  const std::vector<Cell> cells = cells_in(manifest_of(cell_of("3") + "," + cell_of("1")));
-  ASSERT_EQ(cells.size(), 2U);
-  EXPECT_EQ(cells[0].id, "ab");
-  EXPECT_EQ(cells[0].scenario, "s");
-  EXPECT_EQ(cells[0].method, "m");
-  EXPECT_EQ(cells[0].seed, 3U);
-  EXPECT_EQ(cells[1].seed, 1U);
-}
-
 TEST(Manifest, WhatIsNoneIsRefusedByName) {
   const std::pair<std::string, std::string> cases[] = {
       {"", "sweep.json: "},
