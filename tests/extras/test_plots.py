@@ -153,6 +153,17 @@ def test_words_are_the_users_and_mean_nothing_to_matplotlib(runs, tmp_path):
     assert not (tmp_path / "none").exists()
 
 
+def test_no_word_is_cut_at_the_edge(runs, tmp_path):
+    words = ["--title", 9 * "a long title ", "--labels", "1=" + 30 * "word", "--format", "json"]
+    plot(*runs, "--plots", KINDS, *words, "-o", tmp_path)
+    for figure in json.loads((tmp_path / "figures.json").read_text())["figures"]:
+        with matplotlib.style.context(["default", draw.style()]):
+            canvas = draw.draw(figure)
+            renderer = draw.FigureCanvasAgg(canvas).get_renderer()
+        for words in [*canvas.texts, *canvas.legends]:
+            assert words.get_window_extent(renderer).x1 <= canvas.bbox.x1, figure["name"]
+
+
 def test_tex_gets_its_own_escapes():
     with matplotlib.rc_context({"text.usetex": True}):
         assert draw.safe("80 % of a_b") == r"80 \% of a\_b"

@@ -26,7 +26,7 @@ Data = dict[str, Any]
 DPI = 432
 COLUMN_PX = 1512  # 3.5 inches: a column of a paper
 LEFT = 0.015  # where title and legend begin, as a share of the width
-LINE = 62  # letters that are as wide as the figure
+LINE = 62  # letters that fit beside each other in a panel's first line
 INK, GREY, SHADE, BAND = "#262c36", "#5c6470", "#dcebf5", "#f2f4f7"
 MARKERS = {"circle": "o", "square": "s", "triangle": "^", "downward": "v", "diamond": "D"}
 MARKERS["pentagon"] = "p"
@@ -239,15 +239,36 @@ class _Header:
         height_px = artist.get_window_extent(self.renderer).height
         self.end_in += height_px / self.canvas.dpi + 0.05 * self.scale
 
+    def _share(self, artist: Any) -> float:
+        """Of the figure's width."""
+        return artist.get_window_extent(self.renderer).width / self.canvas.bbox.width
+
+    def _broken(self, text: str, most: float) -> str:
+        """Into lines none of which is wider than that share of the figure."""
+        letters = len(text)
+        while True:
+            lines = "\n".join(textwrap.wrap(text, letters))
+            probe = self.canvas.text(0, 0, lines)
+            share = self._share(probe)
+            probe.remove()
+            if share <= most or letters < 9:
+                return lines
+            letters = int(letters * min(0.95, most / share))
+
     def add_text(self, text: str, colour: str) -> None:
         if text:
-            self._add(self.canvas.text(LEFT, 1, safe(text), va="top", color=colour))
+            lines = self._broken(safe(text), 1 - 2 * LEFT)
+            self._add(self.canvas.text(LEFT, 1, lines, va="top", color=colour))
 
     def add_legend(self, handles: list[Any], labels: list[str]) -> None:
         """In one row where that is wide enough, else an entry a row."""
-        is_row = sum(len(label) + 6 for label in labels) <= LINE
         corner: Any = {"loc": "upper left", "bbox_to_anchor": (LEFT, 1.0)}
-        self._add(self.canvas.legend(handles, labels, ncol=len(labels) if is_row else 1, **corner))
+        legend = self.canvas.legend(handles, labels, ncol=len(labels), **corner)
+        if self._share(legend) > 1 - 2 * LEFT:
+            legend.remove()
+            lines = [self._broken(label, 0.88 - 2 * LEFT) for label in labels]  # beside their marks
+            legend = self.canvas.legend(handles, lines, **corner)
+        self._add(legend)
 
     def place(self, height_in: float) -> None:
         for artist, top_in in self.artists:
@@ -292,7 +313,7 @@ def _set_frames(
 
 def draw(figure: Data, scale: float = 1.0, height_in: float | None = None) -> Figure:
     """The whole figure: its title, legend and notes at the top left, and its panels below."""
-    canvas = Figure(figsize=(3.5 * scale, 3.0 * scale))
+    canvas = Figure(figsize=(3.5 * scale, 3.0 * scale), dpi=DPI)  # letters are as wide as drawn
     header = _Header(canvas, scale)
     header.add_text(figure["title"], INK)
     axes = add_panels(figure, canvas, scale)
@@ -305,7 +326,7 @@ def draw(figure: Data, scale: float = 1.0, height_in: float | None = None) -> Fi
             corner: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncol": len(labels)}
             ax.legend(handles, labels, borderaxespad=0.3, **corner)
     for note in figure["notes"]:
-        header.add_text("\n".join(textwrap.wrap(note, LINE + 10)), GREY)
+        header.add_text(note, GREY)
     _set_frames(figure, axes, header, scale, height_in)
     return canvas
 
