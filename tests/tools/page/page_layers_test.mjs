@@ -208,10 +208,16 @@ async function legendsTell() {
 /** Each run is told apart in every plot; seeds of one configuration may be their mean. */
 async function plotsTellRunsApart() {
   await page.go();
-  for (const dashes of await page.is(`[...document.querySelectorAll(".plot-place svg")].map((svg) =>
+  for (const lines of await page.is(`[...document.querySelectorAll(".plot-place svg")].map((svg) =>
     [...svg.querySelectorAll("path[stroke-dasharray]")].map((path) =>
-      path.getAttribute("stroke-dasharray") + path.getAttribute("stroke")))`)) {
-    assert.ok(new Set(dashes).size >= Math.min(dashes.length, isAlone ? 1 : 2), `${dashes}`);
+      ["stroke-dasharray", "stroke", "stroke-width"].map((name) => path.getAttribute(name))))`)) {
+    const looks = lines.map(([dashes, colour]) => dashes + colour);
+    assert.ok(new Set(looks).size >= Math.min(looks.length, isAlone ? 1 : 2), `${looks}`);
+    for (const [dashes, , width] of lines) {  // those of look_of_slot() and of a level, in line widths
+      const on = Number.parseFloat(dashes) / width;
+      assert.ok(dashes === "none" || [5, 1.8, 0.8, 4].some((its) => Math.abs(on / its - 1) < 0.1),
+        `${dashes} of ${width}`);
+    }
   }
   const atFrontiers = runs.filter((run) =>
     readFileSync(join(run, "iterations.csv"), "utf8").includes(",fvs,"));
@@ -242,7 +248,7 @@ async function linksShow() {
     assert.equal(await page.textOf(".choice [aria-pressed=true]"), name);
     if (!by.includes("_")) continue;
     // the profile is no view, and what it covered is told while no view is
-    assert.match(await page.textOf(".readout"), /After the profile/);
+    assert.match(await page.textOf(".readout"), /Before the first view/);
     assert.ok((await valuesOf(1)).some((value) => value !== "–"), by);
     await page.go(`#by=${by}&at=1e9`);
     assert.match(await page.textOf(".readout"), /View \d+ of \d+/);

@@ -18,7 +18,8 @@ done
 # names that only files can hold
 node -e '
   const fs = require("fs");
-  const evil = "</script><script>window.hacked=1</script><svg onload=window.hacked=1>";
+  const evil = "</script><script>window.hacked=1</script><svg onload=window.hacked=1>"
+    + "x".repeat(150);
   for (const run of process.argv.slice(1)) {
     const summary = JSON.parse(fs.readFileSync(run + "/summary.json"));
     Object.assign(summary, { scenario: evil, structure: evil, utility: evil, version: evil });

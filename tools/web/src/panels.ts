@@ -99,7 +99,7 @@ export function validWords(flight: Flight, view: number): string {
 /** Where the replay is, in words. */
 export function readout(flight: Flight): string {
   const { n } = flight;
-  if (n === 0) return "After the profile, before the first view";
+  if (n === 0) return "Before the first view";
   const v = flight.data.views;
   const coverage = flight.data.figures?.curve[n];
   const decision = v.sampler[n - 1] === "tour"

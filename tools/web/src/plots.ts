@@ -64,9 +64,10 @@ function drawPanel({ x, y, shades, series }: Panel, look: SvgLook, top: number, 
     const way = one.mark === "level" ? `${point(x.low, one.y[0])}H${px(x.high).toFixed(1)}`
       : along(one.y).join("L");
     const [endX, endY] = one.end ?? [null, null];
+    const line_px = Math.max(0.8, 1.6 * one.width_pt);
+    const dashes = one.dashes.map((dash) => (dash * line_px).toFixed(1)).join(" ");
     return `${band}<path fill="none" stroke="${colour(one)}" stroke-width="${
-      Math.max(0.8, 1.6 * one.width_pt).toFixed(1)}" stroke-dasharray="${
-      one.dashes.join(" ") || "none"}" d="M${way}"/>${endX === null || endY === null ? ""
+      line_px.toFixed(1)}" stroke-dasharray="${dashes || "none"}" d="M${way}"/>${endX === null || endY === null ? ""
       : `<circle cx="${px(endX).toFixed(1)}" cy="${py(endY).toFixed(1)}" r="3.5" fill="${
         colour(one)}"/>`}`;
   };
