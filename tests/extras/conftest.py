@@ -1,6 +1,7 @@
 """`gnbv fly` beside the clients that fly it, and a run to be read. GNBV names the program."""
 
 import asyncio
+import csv
 import json
 import math
 import os
@@ -22,6 +23,11 @@ def free_port() -> int:
 def gnbv(*arguments) -> subprocess.CompletedProcess[str]:
     command = [os.environ["GNBV"], *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True)
+
+
+def rows(file: Path) -> list[dict[str, str]]:
+    with file.open(newline="") as text:
+        return list(csv.DictReader(text))
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 
 import numpy as np
+import pycolmap
 import pytest
 from conftest import gnbv
 from PIL import Image
@@ -64,21 +65,10 @@ def colmap(command: str, **options) -> None:
     assert done.returncode == 0, f"{command}: {done.stdout[-2000:]}{done.stderr[-2000:]}"
 
 
-def poses(model, text) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def poses(model) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Of each image R_camera_world and the camera's centre in the world."""
-    text.mkdir()
-    colmap("model_converter", input_path=model, output_path=text, output_type="TXT")
-    found = {}
-    for line in (text / "images.txt").read_text().splitlines():
-        words = line.split()
-        if line.startswith("#") or len(words) != 10 or not words[9].endswith((".png", ".jpg")):
-            continue
-        w, x, y, z = map(float, words[1:5])
-        R = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-        found[words[9]] = R, -R.T @ np.array(list(map(float, words[5:8])))
-    return found
+    return {image.name: (image.cam_from_world().rotation.matrix(), image.projection_center())
+            for image in model.images.values()}
 
 
 def similarity(a: np.ndarray, b: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
@@ -129,10 +119,9 @@ def test_finds_the_poses_of_the_frames_within_a_centimetre(tmp_path):
     exported = gnbv("export", run, "--format", "colmap")
     assert exported.returncode == 0, exported.stderr
     folder = tmp_path.__class__(exported.stdout.strip())
-    truth = poses(folder / "sparse/0", tmp_path / "ours")
-    (line,) = [line for line in (tmp_path / "ours/cameras.txt").read_text().splitlines()
-               if not line.startswith("#")]
-    camera = [float(word) for word in line.split()[4:]]
+    ours = pycolmap.Reconstruction(str(folder / "sparse/0"))
+    truth = poses(ours)
+    (camera,) = [list(its.params) for its in ours.cameras.values()]
     shares = overlap(run, camera, [truth[name] for name in sorted(truth)])
     print(f"{len(truth)} frames, overlap of neighbours: median {np.median(shares):.2f}")
     assert len(truth) >= 45 and np.median(shares) > 0.8
@@ -150,7 +139,7 @@ def test_finds_the_poses_of_the_frames_within_a_centimetre(tmp_path):
            match_type="pairs", SiftMatching__use_gpu=0)
     colmap("mapper", database_path=database, image_path=folder / "images", output_path=sparse,
            Mapper__ba_refine_focal_length=0, Mapper__ba_refine_extra_params=0)
-    found = poses(sparse / "0", tmp_path / "theirs")
+    found = poses(pycolmap.Reconstruction(str(sparse / "0")))
     names = sorted(found)
     theirs = np.array([found[name][1] for name in names])
     ours = np.array([truth[name][1] for name in names])

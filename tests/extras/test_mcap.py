@@ -1,20 +1,15 @@
 """The real MCAP reader opens what `gnbv export --format mcap` writes; its contents are counted
 against the run's own files, depth pixel by pixel."""
 
-import csv
 import json
 from collections import defaultdict
 
 import numpy as np
 import pytest
+from conftest import rows
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from PIL import Image
-
-
-def rows(file):
-    with file.open(newline="") as text:
-        return list(csv.DictReader(text))
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +67,15 @@ def test_frames_are_those_that_were_kept(run, topics):
         pixels = np.frombuffer(raw.data, "<u2").reshape(raw.height, raw.width)
         assert raw.encoding == "16UC1" and raw.step == 2 * raw.width
         assert np.array_equal(pixels, np.asarray(Image.open(run / "frames" / frame["depth"])))
+
+
+def test_the_calibration_is_that_of_the_camera_as_ros_counts_pixels(run, topics):
+    camera = json.loads((run / "frames/cameras.json").read_text())[0]
+    calibration = topics[f"/{camera['name']}/calibration"][0][2]
+    # ROS and OpenCV count from the middle of the first pixel, the run from its corner
+    centre = camera["cx_px"] - 0.5, camera["cy_px"] - 0.5
+    for row in calibration.K, [k for i, k in enumerate(calibration.P) if i % 4 < 3]:
+        assert list(row) == [camera["fx_px"], 0, centre[0], 0, camera["fy_px"], centre[1], 0, 0, 1]
 
 
 def test_the_structure_is_there_in_colour(topics):

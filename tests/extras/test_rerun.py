@@ -1,21 +1,15 @@
 """The real Rerun opens what `gnbv export --format rerun` writes; its contents are counted against
 the run's own files."""
 
-import csv
 import os
 import shutil
 import subprocess
 
 import numpy as np
 import pytest
-from conftest import gnbv
+from conftest import gnbv, rows
 
 chunk = pytest.importorskip("rerun.chunk", reason="needs a rerun-sdk that reads its files")
-
-
-def rows(file):
-    with file.open(newline="") as text:
-        return list(csv.DictReader(text))
 
 
 @pytest.fixture(scope="module")

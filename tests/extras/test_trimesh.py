@@ -1,19 +1,15 @@
 """The real trimesh reads our clouds and meshes: PLY, GLB and OBJ, textures among them."""
 
-import csv
-
 import numpy as np
 import pytest
 import trimesh
-from conftest import gnbv
+from conftest import gnbv, rows
 
 
 def test_reads_the_cloud(run):
     cloud = trimesh.load(run / "cloud.ply")
     assert isinstance(cloud, trimesh.PointCloud)
-    with (run / "iterations.csv").open() as file:
-        last = list(csv.DictReader(file))[-1]
-    assert len(cloud.vertices) == int(last["cloud_points"])
+    assert len(cloud.vertices) == int(rows(run / "iterations.csv")[-1]["cloud_points"])
     assert np.isfinite(cloud.vertices).all()
 
 

@@ -144,7 +144,9 @@ def _frustum(out: _Out, camera: Camera, frame: Frame) -> None:
     _stamp(transform, frame.time_s)
     _pose((transform.translation, transform.rotation), frame.position, frame.quaternion)
     out.message("/tf", frame.time_s, transform)
-    k = [camera.fx_px, camera.skew_px, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0]
+    # ROS and OpenCV count from the middle of the first pixel, the run from its corner
+    cx, cy = camera.cx_px - 0.5, camera.cy_px - 0.5
+    k = [camera.fx_px, camera.skew_px, cx, 0.0, camera.fy_px, cy, 0.0, 0.0, 1.0]
     calibration = CameraCalibration(
         frame_id=camera.name,
         width=camera.width_px,
