@@ -16,7 +16,8 @@ constexpr const char* kNerfstudioReadme =
     R"(A gnbv run as a nerfstudio data set, for example: ns-train depth-nerfacto --data .
 
 transforms.json  camera to world (x right, y up, z back), world ENU in metres as in the run;
-                 applied_transform is therefore the identity; pinhole intrinsics of each frame
+                 applied_transform is therefore the identity; intrinsics of each frame, with
+                 distortion as OpenCV has it
 images/          colour, PNG
 depth/           16-bit PNG, along the optical axis, times depth_unit_scale_factor metres; 0 where
                  there is none. nerfstudio takes the factor from its dataparser option

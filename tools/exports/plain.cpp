@@ -27,14 +27,15 @@ right, y down, z forward. A pose is of the named frame in the world: p_world = R
 with the unit quaternion q = (qx, qy, qz, qw). Time is simulated seconds since the mission began.
 
 trajectory.csv   true path of the body at 10 Hz; phase: profile, transfer, views
-views.csv        a row for each view and camera: where body and camera were, why the view was chosen
-                 (sampler, utility and its terms), what was known after it. pose: `believed` is the
-                 vehicle's own estimate when the frame was taken, `planned` the view's goal, where
-                 no frame was kept. entropy_nat: of the whole map; straight_m, flown_m: since the
+views.csv        a row for each view and camera (of a vehicle without cameras, for each view): where
+                 body and camera were, why the view was chosen (sampler, utility and its terms), what
+                 was known after it. pose: `believed` is the vehicle's own estimate when the frame
+                 was taken, `planned` the view's goal, where no frame was kept. entropy_nat: of the whole map; straight_m, flown_m: since the
                  first view; image, depth: files here
-intrinsics.json  of each camera: pinhole, pixels, the centre of the first pixel at (0.5, 0.5);
-                 T_body_camera row by row, of a camera on a gimbal with the gimbal level; ranges along the optical axis; depth_scale_m: metres a
-                 step of its depth images
+intrinsics.json  of each camera: model, pixels, the centre of the first pixel at (0.5, 0.5);
+                 distortion as OpenCV has it; T_body_camera row by row, of a camera on a gimbal
+                 with the gimbal level; ranges along the optical axis, of a fisheye along the ray;
+                 depth_scale_m: metres a step of its depth images
 images/*.png     colour, sRGB, 8 bits
 depth/*.png      16 bits, steps of depth_scale_m along the optical axis, 0 where there is none
 cloud.ply        the model: x y z (float32, metres), red green blue (grey 128 where no frame shows
@@ -95,6 +96,10 @@ std::string views_text(const RunRecord& record, const FrameRecord& frames) {
   std::string text = fmt::format("iteration,camera,pose,{},{},{},image,depth\n",
                                  pose_header("body"), pose_header("camera"), decision_header());
   for (const ViewRecord& view : record.views) {
+    if (record.scenario.cameras.empty()) {
+      text += fmt::format("{},,planned,{},,,,,,,,{},,\n", view.iteration,
+                          pose_text(T_world_body(view.decision.view), ','), decision_cells(view));
+    }
     for (const CameraConfig& config : record.scenario.cameras) {
       const CameraModel camera =
           turned(make_camera_model(config), view.decision.view.gimbal_pitch_rad);

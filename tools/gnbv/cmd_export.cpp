@@ -59,15 +59,15 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
 
 template <auto kWrite>
 void fill_sparse(const Export& e, const fs::path& folder) {
+  if (!has_frames(e.record.folder)) throw BadInput(why_no_frames(e.record));
   const FrameRecord frames = read_frames(e.record.folder);
   kWrite(frames, sparse_model(e, frames), folder);
 }
 
-/// Says so, with the command that keeps them, when there are none.
+/// Says so when there are none.
 std::optional<FrameRecord> frames_if_kept(const RunRecord& record) {
   if (has_frames(record.folder)) return read_frames(record.folder);
-  say("{}: no frames were kept, so that no images are written; {} keeps them",
-      (record.folder / kFramesFolder).string(), command_to_fly_again(record.folder, "--frames"));
+  say(std::string_view(why_no_frames(record)));
   return std::nullopt;
 }
 

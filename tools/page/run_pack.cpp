@@ -43,11 +43,7 @@ struct RunPacker {
       has_cloud = true;
       pack_growth();
     });
-    if (!has_frames(record.folder)) {
-      run.missing.push_back(fmt::format("{}: colour images were not kept; {} keeps them",
-                                        (record.folder / kFramesFolder).string(),
-                                        command_to_fly_again(record.folder, "--frames")));
-    }
+    if (!has_frames(record.folder)) run.missing.push_back(why_no_frames(record));
     if (has_cloud || RunFiles(record.folder).find(kCloudFile)) {
       pack_points();
       unless_damaged([&] { pack_frames(); });

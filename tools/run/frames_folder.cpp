@@ -8,7 +8,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 
 namespace gnbv {
@@ -172,16 +171,26 @@ void FramesFolder::write(std::size_t iteration, double time_s, std::span<const D
 
 bool has_frames(const fs::path& run) {
   const fs::path folder = run / kFramesFolder;
-  return fs::exists(folder / kPosesFile) || fs::exists(folder / kCamerasFile);
+  if (!fs::exists(folder / kPosesFile)) return fs::exists(folder / kCamerasFile);
+  const std::string rows = read_file(folder / kPosesFile);
+  return trimmed(rows) != kPosesHeader;
+}
+
+std::string why_no_frames(const RunRecord& record) {
+  const fs::path folder = record.folder / kFramesFolder;
+  if (record.scenario.cameras.empty()) {
+    return fmt::format("{}: there are no frames: the vehicle has no camera", folder.string());
+  }
+  if (fs::exists(folder)) {
+    return fmt::format("{}: there are no frames: none was taken", folder.string());
+  }
+  return fmt::format("{}: no frames were kept; {} keeps them", folder.string(),
+                     command_to_fly_again(record.folder, "--frames"));
 }
 
 FrameRecord read_frames(const fs::path& run) {
   const fs::path folder = run / kFramesFolder;
   const std::string again = command_to_fly_again(run, "--frames");
-  if (!has_frames(run)) {
-    throw BadInput(fmt::format("{}: the run has no frames; {} flies it again and keeps them",
-                               folder.string(), again));
-  }
   const fs::path poses = folder / kPosesFile;
   for (const fs::path& file : {poses, folder / kCamerasFile}) {
     if (fs::exists(file)) continue;

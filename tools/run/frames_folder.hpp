@@ -10,7 +10,7 @@
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 #include "sim/core/image.hpp"
-#include "tools/run/run_files.hpp"
+#include "tools/run/run_record.hpp"
 
 namespace gnbv {
 
@@ -70,10 +70,14 @@ struct FrameRecord {
   std::vector<RecordedFrame> frames;  // as they were taken: by iteration, then by camera
 };
 
+/// Whether it holds a frame, or is damaged.
 bool has_frames(const std::filesystem::path& run);
 
-/// Throws BadInput, naming the command that flies the mission once more and keeps its frames, for a
-/// run without them, and naming file and line of whatever is damaged or missing.
+/// Of a run without frames: with the command that flies it again and keeps them, where one does.
+std::string why_no_frames(const RunRecord& record);
+
+/// Throws BadInput naming file and line of whatever is damaged or missing, and the command that
+/// flies the mission once more and keeps its frames.
 FrameRecord read_frames(const std::filesystem::path& run);
 
 /// The images of a frame. Throw BadInput naming one that is damaged or not of its camera's size.

@@ -33,8 +33,7 @@ struct RunPictures {
 std::optional<RunPictures> read_pictures(const RunRecord& record, int threads,
                                          std::vector<std::string>& notes) {
   if (!has_frames(record.folder)) {
-    notes.push_back(
-        without_pictures(record, fmt::format("{}: has no frames", record.folder.string())));
+    notes.push_back(why_no_frames(record) + "; colours show the height");
     return std::nullopt;
   }
   try {
