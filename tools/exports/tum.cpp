@@ -22,12 +22,12 @@ trajectory.txt           true path of the body (x forward, y left, z up) in the 
                          at 10 Hz: time_s x y z qx qy qz qw, as `evo_traj tum` opens it
 CAMERA/groundtruth.txt   true path of the camera (x right, y down, z forward), the same columns,
                          at 10 Hz and at every frame, of a camera on a gimbal at frames only; up to
-                         0.1 s after the last sample of the path, where the last view may be, that
-                         sample holds
+                         0.1 s before the first sample of the path and after the last, where a view
+                         may be, that sample holds
 CAMERA/estimate.txt      where the vehicle believed the camera to be, at every frame;
                          `evo_ape tum groundtruth.txt estimate.txt` measures the difference
-CAMERA/calibration.txt   fx fy cx cy width height in pixels, no distortion; the centre of the
-                         first pixel at (0.5, 0.5)
+CAMERA/calibration.txt   fx fy cx cy width height in pixels, the centre of the first pixel at
+                         (0.5, 0.5); a comment has skew and distortion where there are any
 CAMERA/rgb.txt           time and name of every colour image
 CAMERA/depth.txt         time and name of every depth image: 16 bits, {} steps a metre
                          (the benchmark's own have 5000), 0 where there is none or it is beyond {} m
@@ -41,20 +41,20 @@ begins with the mission.
 std::string groundtruth_text(const RunRecord& record, const Isometry& T_body_camera,
                              const std::vector<double>& frame_times_s) {
   std::string text = tum_text("optical frame in world ENU, true", {});
+  const auto add = [&](double time_s, const std::optional<Isometry>& T_world_body) {
+    if (T_world_body) text += tum_line(time_s, *T_world_body * T_body_camera);
+  };
   auto frame = frame_times_s.begin();
   for (const TrajectorySample& sample : record.path) {
     for (; frame != frame_times_s.end() && *frame < sample.time_s; ++frame) {
-      if (*frame < record.path.front().time_s) continue;
-      text += tum_line(*frame, *true_pose_at(record, *frame) * T_body_camera);
+      add(*frame, true_pose_at(record, *frame));
     }
     // a frame at the very time of a sample stands once
     if (frame != frame_times_s.end() && *frame == sample.time_s) ++frame;
-    text += tum_line(sample.time_s, sample.T_world_body * T_body_camera);
+    add(sample.time_s, sample.T_world_body);
   }
-  for (; frame != frame_times_s.end(); ++frame) {  // of the last view, after the last sample
-    const std::optional<Isometry> T_world_body = true_pose_at(record, *frame);
-    if (T_world_body) text += tum_line(*frame, *T_world_body * T_body_camera);
-  }
+  // of the last view, after the last sample
+  for (; frame != frame_times_s.end(); ++frame) add(*frame, true_pose_at(record, *frame));
   return text;
 }
 

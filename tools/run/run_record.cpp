@@ -192,7 +192,9 @@ std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s) {
     return is_held ? std::optional(record.path.back().T_world_body) : std::nullopt;
   }
   if (after->time_s == time_s) return after->T_world_body;
-  if (after == record.path.begin()) return std::nullopt;
+  if (after == record.path.begin()) {
+    return time_s >= after->time_s - kHeld_s ? std::optional(after->T_world_body) : std::nullopt;
+  }
   const auto before = std::prev(after);
   const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
   const Vec3 from = before->T_world_body.translation();

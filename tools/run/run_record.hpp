@@ -60,8 +60,8 @@ std::string run_title(const RunRecord& record);
 std::string run_detail(const RunRecord& record);
 
 /// T_world_body as it truly was, between the samples of the path: straight, and along the shorter
-/// arc. For one period after the last sample, 0.1 s, that one holds: a run ends where it hovers to
-/// see. Nothing before the first sample or later.
+/// arc. For one period before the first sample and after the last, 0.1 s, that one holds: a run
+/// begins and ends where it hovers to see. Nothing earlier or later.
 std::optional<Isometry> true_pose_at(const RunRecord& record, double time_s);
 
 }  // namespace gnbv

@@ -197,7 +197,8 @@ TEST_F(Record, BetweenSamplesThePoseIsInterpolated) {
   EXPECT_TRUE(p_world_m(3.25).isApprox(Vec3(-4, 2, 2.25)));
   EXPECT_EQ(p_world_m(3.0), Vec3(-4, 4, 2));
   EXPECT_EQ(p_world_m(4.05), Vec3(-4, -4, 3)) << "it hovers where it ends";
-  EXPECT_FALSE(true_pose_at(record, 4.2) || true_pose_at(record, -0.1));
+  EXPECT_EQ(p_world_m(-0.08), Vec3(-4, -4, 1)) << "and where it begins";
+  EXPECT_FALSE(true_pose_at(record, 4.2) || true_pose_at(record, -0.2));
   record.path[3].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(170.0), Vec3::UnitZ()));
   record.path[4].T_world_body.rotate(Eigen::AngleAxisd(deg_to_rad(-170.0), Vec3::UnitZ()));
   const Eigen::AngleAxisd turn(true_pose_at(record, 3.25)->linear());
