@@ -115,6 +115,42 @@ void note_steps(std::span<const double> times_s, std::string_view band, Figure& 
   figure.notes.push_back(fmt::format("line: mean of each {:.2g} s; band: {}", step_s, band));
 }
 
+/// Else the way from view to view is no straight line, and stands in no file.
+bool flies_legs(const RunRecord& record) {
+  return record.scenario.guidance.trajectory == Trajectory::legs;
+}
+
+/// How far off its legs the vehicle was, beside the safety margin.
+FigurePanel error_panel(const RunRecord& record, const Flown& flown) {
+  std::vector<double> errors_m = flown.errors_m;
+  for (double& error_m : errors_m) error_m = std::max(error_m, kLeastError_m);
+  const double margin_m = record.scenario.planner.validity.collision_radius_m -
+                          record.scenario.vehicle.airframe.hull_radius_m;
+  std::vector<Series> errors;
+  if (margin_m > kLeastError_m) {
+    errors.push_back({.name = "safety margin",
+                      .label = fmt::format("safety margin, {:.2f} m", margin_m),
+                      .mark = Mark::level,
+                      .look = {.colour = std::string(kPalette[1]), .dashes = {4.0, 3.0}},
+                      .y = {margin_m}});
+  }
+  Series error = trace("tracking error", flown.times_s, errors_m, 0, 0.05, 0.95);
+  if (!error.low.empty()) {
+    Series most = trace("largest error", flown.times_s, errors_m, 0);
+    most.y = std::move(most.high);
+    most.high.clear();
+    most.low.clear();
+    most.width_pt = 0.4;
+    errors.push_back(std::move(most));
+  }
+  errors.push_back(std::move(error));
+  const auto [least_m, most_m] = range_of(errors);
+  FigurePanel panel = low_panel("tracking error (distance from the planned leg, m)",
+                                std::move(errors), flown.times_s);
+  panel.y = log_axis("", least_m, std::max(most_m, 1.001 * least_m));
+  return panel;
+}
+
 }  // namespace
 
 Series trace(std::string name, const std::vector<double>& times_s,
@@ -184,48 +220,33 @@ std::optional<Figure> flight_figure(const RunRecord& record) {
   add("roll (deg)", {trace("roll", flown.times_s, flown.rolls_deg, 0)});
   add("pitch (deg)", {trace("pitch", flown.times_s, flown.pitches_deg, 0)});
   add("speed (m/s)", {trace("speed", flown.times_s, flown.speeds_m_s, 0)});
-  add("distance from planned leg (m)", {trace("distance", flown.times_s, flown.errors_m, 0)});
+  if (flies_legs(record)) {
+    add("distance from planned leg (m)", {trace("distance", flown.times_s, flown.errors_m, 0)});
+  }
   return figure;
 }
 
 std::optional<Figure> tracking_figure(const RunRecord& record) {
-  Flown flown = flown_between_views(record);
+  const Flown flown = flown_between_views(record);
   if (flown.times_s.empty()) return std::nullopt;
-  for (double& error_m : flown.errors_m) error_m = std::max(error_m, kLeastError_m);
-  const double margin_m = record.scenario.planner.validity.collision_radius_m -
-                          record.scenario.vehicle.airframe.hull_radius_m;
   const WindConfig& wind = record.scenario.wind;
   Figure figure{.name = "tracking", .kind = "tracking"};
   figure.title = fmt::format(
       "{}: wind {:.3g} m/s{}", run_and_seed(record), wind.mean_world_m_s.norm(),
       wind.gust_w20_m_s > 0.0 ? fmt::format(", gusts of {:.3g} m/s at 20 ft", wind.gust_w20_m_s)
                               : "");
-  note_steps(flown.times_s, "5 to 95 %; thin: largest error", figure);
-  std::vector<Series> errors;
-  if (margin_m > kLeastError_m) {
-    errors.push_back({.name = "safety margin",
-                      .label = fmt::format("safety margin, {:.2f} m", margin_m),
-                      .mark = Mark::level,
-                      .look = {.colour = std::string(kPalette[1]), .dashes = {4.0, 3.0}},
-                      .y = {margin_m}});
+  if (flies_legs(record)) {
+    note_steps(flown.times_s, "5 to 95 %; thin: largest error", figure);
+    figure.panels.push_back(error_panel(record, flown));
+  } else {
+    note_steps(flown.times_s, "5 to 95 %", figure);
+    figure.notes.emplace_back(
+        "the smooth way past the views stands in no file; path_error_m of summary.json says how "
+        "far off it the vehicle was");
   }
-  Series error = trace("tracking error", flown.times_s, flown.errors_m, 0, 0.05, 0.95);
-  if (!error.low.empty()) {
-    Series most = trace("largest error", flown.times_s, flown.errors_m, 0);
-    most.y = std::move(most.high);
-    most.high.clear();
-    most.low.clear();
-    most.width_pt = 0.4;
-    errors.push_back(std::move(most));
-  }
-  errors.push_back(std::move(error));
-  const auto [least_m, most_m] = range_of(errors);
-  figure.panels = {
-      low_panel("tracking error (distance from the planned leg, m)", std::move(errors),
-                flown.times_s),
-      low_panel("tilt (angle of the body from upright, deg)",
-                {trace("tilt", flown.times_s, flown.tilts_deg, 0, 0.05, 0.95)}, flown.times_s)};
-  figure.panels[0].y = log_axis("", least_m, std::max(most_m, 1.001 * least_m));
+  figure.panels.push_back(low_panel("tilt (angle of the body from upright, deg)",
+                                    {trace("tilt", flown.times_s, flown.tilts_deg, 0, 0.05, 0.95)},
+                                    flown.times_s));
   for (FigurePanel& panel : figure.panels) panel.height_px = 360;
   return figure;
 }

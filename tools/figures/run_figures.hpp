@@ -28,13 +28,14 @@ std::optional<Figure> terms_figure(const RunRecord& record);
 /// or an empty one. Throws BadInput as read_predictions_csv().
 std::optional<Figure> predictions_figure(const RunRecord& record);
 
-/// "flight": position, attitude, speed and distance from the leg over the time of the views, from
-/// trajectory.tum. Nothing for a run without two views, or without its path.
+/// "flight": position, attitude, speed and, of legs, the distance from them over the time of the
+/// views, from trajectory.tum. Nothing for a run without two views, or without its path.
 std::optional<Figure> flight_figure(const RunRecord& record);
 
 /// "tracking": over the time of the views, how far the vehicle truly was from the straight legs
 /// that were checked for it, beside what the collision radius leaves beyond the hull (the safety
-/// margin); and its tilt. Nothing for a run without two views, or without its path.
+/// margin); and its tilt. Of smooth ways, which no file holds, the tilt alone. Nothing for a run
+/// without two views, or without its path.
 std::optional<Figure> tracking_figure(const RunRecord& record);
 
 /// A line of yaws in [-180, 180] deg: what goes past 180 is drawn on to 190 before the line breaks

@@ -86,5 +86,16 @@ TEST(FlightFigures, TrackingIsTheDistanceFromEachLegAndTheTilt) {
   EXPECT_NE(tracking_figure(record)->title.find("gusts of 7.7 m/s at 20 ft"), std::string::npos);
 }
 
+/// Nobody planned its straight lines, and the way that was planned stands in no file.
+TEST(FlightFigures, ASmoothWayIsMeasuredFromNoLeg) {
+  RunRecord record = made_record();
+  record.scenario.guidance.trajectory = Trajectory::smooth;
+  EXPECT_EQ(flight_figure(record)->panels.back().heading, "speed (m/s)");
+  const Figure tracking = tracking_figure(record).value();
+  ASSERT_EQ(tracking.panels.size(), 1U);
+  EXPECT_EQ(tracking.panels[0].series.at(0).name, "tilt");
+  EXPECT_NE(tracking.notes.at(0).find("path_error_m"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gnbv

@@ -125,7 +125,7 @@ def terms(run: Runs, *, axes: Sequence[Axes] | None = None, **options: Any) -> l
 
 
 def flight(run: Runs, *, axes: Sequence[Axes] | None = None, **options: Any) -> list[Axes]:
-    """Position, attitude, speed and distance from the planned leg of one run."""
+    """Position, attitude, speed and, of legs, the distance from them, of one run."""
     return _all(run, "flight", axes, options)
 
 
