@@ -133,7 +133,7 @@ Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double s
   FigurePanel panel{.series = coverage_levels(groups, size_m), .height_px = kTallPanel_px};
   add_groups(drawn, Mark::steps, panel, figure.notes);
   const auto [low, high] = range_from(panel.series, 0.0);
-  panel.x = axis_from(effort == Effort::views ? "views (0: the profile alone)" : words.label, 0.0,
+  panel.x = axis_from(effort == Effort::views ? "views (0: before the first)" : words.label, 0.0,
                       std::max(kBeyond * longest_of(drawn), 1e-6));
   panel.y = coverage_axis(percent_axis(low, high), size_m, groups);
   figure.panels = {std::move(panel)};

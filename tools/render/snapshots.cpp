@@ -44,6 +44,15 @@ void frame_series(RunSource& run, const PictureOptions& options,
   }
 }
 
+/// "3 of 12 views (iteration 2), 8 s and 2.1 m flown since the first".
+std::string flown_so_far(const RunRecord& record, std::size_t iteration, double time_s) {
+  const double since_s = time_s - record.views.front().time_s;
+  if (since_s < 0.0) return "before the first view";
+  return fmt::format("{}, {} s and {} m flown since the first", views_so_far(record, iteration),
+                     grouped(static_cast<std::size_t>(std::lround(since_s))),
+                     grouped(record.views[iteration].flown_m, 1));
+}
+
 Picture no_picture(RunSource&, const PictureOptions&, const RenderView&) { return {}; }
 
 }  // namespace
@@ -87,8 +96,16 @@ Snapshots::Snapshots(RunSource& run, const PictureOptions& options, const Render
 std::vector<double> film_times_s(const RunRecord& record, std::size_t images) {
   std::vector<double> times_s;
   if (record.views.empty()) return times_s;
-  const double begin_s = record.views.front().time_s;
-  const double whole_s = record.views.back().time_s - begin_s;
+  double begin_s = record.views.front().time_s;
+  double end_s = record.views.back().time_s;
+  if (!record.path.empty()) {
+    const ProfilingMethod profile = record.scenario.planner.profiling.method;
+    const bool is_from_take_off =
+        profile == ProfilingMethod::none || profile == ProfilingMethod::saved;
+    if (is_from_take_off) begin_s = std::min(begin_s, record.path.front().time_s);
+    end_s = std::max(end_s, record.path.back().time_s);
+  }
+  const double whole_s = end_s - begin_s;
   const std::size_t count = whole_s > 0.0 ? std::max<std::size_t>(images, 2) : 1;
   for (std::size_t i = 0; i < count; ++i) {
     times_s.push_back(begin_s + whole_s * static_cast<double>(i) /
@@ -175,7 +192,9 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
   }
   add_ghost(run_, 0.5F, scene, time_s);
 
-  const std::size_t seen = run_.cloud().view_points[iteration];
+  const bool has_begun = time_s >= record.views.front().time_s;
+  const RunCloud& cloud = run_.cloud();
+  const std::size_t seen = has_begun ? cloud.view_points[iteration] : cloud.profile_points;
   const auto count = std::lower_bound(points_.begin(), points_.end(), seen) - points_.begin();
   DotsItem dots = cloud_;
   dots.points_m.resize(static_cast<std::size_t>(count));
@@ -201,11 +220,9 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
     frustum.edge_radius_m = static_cast<float>(1.3 * unit_m);
     scene.frusta.push_back(frustum);
   }
-  picture.detail = fmt::format(
-      "{}, {} s and {} m flown since the first, {}{}", views_so_far(record, iteration),
-      grouped(static_cast<std::size_t>(std::lround(time_s - record.views.front().time_s))),
-      grouped(now.flown_m, 1), counted(now.cloud_points, "point"),
-      speed > 0.0 ? fmt::format(", shown {:.0f} times as fast", speed) : "");
+  picture.detail =
+      fmt::format("{}, {}{}", flown_so_far(record, iteration, time_s), counted(seen, "point"),
+                  speed > 0.0 ? fmt::format(", shown {:.0f} times as fast", speed) : "");
   const std::string larger = scale > 1.05 ? fmt::format(", {:.1f} times as large", scale) : "";
   picture.legend = {bar(path_colours(), "first", "last view"),
                     {"not seen yet", {looks::kStructure.rgb()}},
@@ -213,7 +230,7 @@ Picture Snapshots::picture_at(double time_s, double speed, const RenderView& vie
                     {"vehicle" + larger, {looks::kFrontRotors.rgb()}},
                     entry(looks::kCamera, LegendItem::Mark::pyramid)};
   if (!record.scenario.obstacles.empty()) picture.legend.push_back(entry(looks::kObstacle));
-  if (!record.scenario.cameras.empty()) picture.inset = seen_by_camera(iteration);
+  if (has_begun && !record.scenario.cameras.empty()) picture.inset = seen_by_camera(iteration);
   picture.inset_words = "the camera's last view";
   return picture;
 }

@@ -13,7 +13,7 @@ namespace gnbv {
 std::vector<std::size_t> snapshot_iterations(std::size_t views, int every, std::size_t about);
 
 /// Times since the mission began at which a film of so many images shows it: even steps from its
-/// first view to its last.
+/// first view, or its take-off where no profile comes before, to its end.
 std::vector<double> film_times_s(const RunRecord& record, std::size_t images);
 
 /// Draws one run: its structure as a ghost, and what was flown and seen up to a time, beside what
@@ -30,7 +30,7 @@ class Snapshots {
   }
   RenderView view(std::size_t iteration) const;
 
-  /// At any time from the first view on. `speed`: how many times faster than it was flown the film
+  /// At any time of the flight. `speed`: how many times faster than it was flown the film
   /// runs; 0 says nothing.
   Picture picture_at(double time_s, double speed, const RenderView& view);
   RenderView view_at(double time_s) const;

@@ -44,7 +44,7 @@ inline constexpr Look kWorkspace{"workspace", "", "workspace", 0x9aa5b3};
 inline constexpr Look kSeen{"seen", "cloud", "seen", 0x0b6fa8, 0x4fb0e0};
 inline constexpr Look kNewPoints{"new_points", "cloud", "points of this view", 0x00a8ff};
 /// A hue that the amounts do not have.
-inline constexpr Look kProfilePoints{"profile_points", "cloud", "seen by the profile alone",
+inline constexpr Look kProfilePoints{"profile_points", "cloud", "seen before the first view alone",
                                      0xc99a6b};
 inline constexpr Look kOccupied{"occupied", "voxels", "occupied", 0xc9d1da, 0x8a93a0};
 inline constexpr Look kUnknown{"unknown", "unknown", "unknown", 0xe69f00};

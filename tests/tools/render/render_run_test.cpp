@@ -213,7 +213,7 @@ TEST(CloudPicture, WhatTheProfileAloneHasSeenIsPale) {
   const Picture picture = kCloudPicture.draw(run, {}, {});
   const std::vector<Rgb>& colours = picture.panels.at(0).scene.dots.at(0).colours;
   ASSERT_EQ(picture.legend.size(), 2U);
-  EXPECT_EQ(picture.legend[0].label, "seen by the profile alone: 1 point");
+  EXPECT_EQ(picture.legend[0].label, "seen before the first view alone: 1 point");
   EXPECT_EQ(colours[0], picture.legend[0].colours[0]);
   EXPECT_NE(colours[1], colours[0]);  // a camera has seen its voxel
   EXPECT_EQ(colours[1], colours[2]);

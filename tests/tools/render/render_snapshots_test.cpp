@@ -11,10 +11,21 @@
 namespace gnbv {
 namespace {
 
-TEST(Film, ShowsTheFlightAtOnePace) {
-  const std::vector<double> times_s = film_times_s(made_record(), 5);
-  EXPECT_EQ(times_s, (std::vector<double>{3.0, 3.5, 4.0, 4.5, 5.0}));
+/// At one pace: without a profile from the ground on, and on to where it landed.
+TEST(Film, GoesFromTakeOffToLanding) {
+  MadeRun made;
+  EXPECT_EQ(film_times_s(made.record, 5), (std::vector<double>{3.0, 3.5, 4.0, 4.5, 5.0}));
   EXPECT_TRUE(film_times_s({}, 5).empty());
+  made.record.path.push_back(made_sample(8, {-4, -4, 0}));
+  EXPECT_EQ(film_times_s(made.record, 2), (std::vector<double>{3.0, 8.0}));
+  made.record.scenario.planner.profiling.method = ProfilingMethod::none;
+  EXPECT_EQ(film_times_s(made.record, 2), (std::vector<double>{0.0, 8.0}));
+  RunSource run = made.source();
+  const RenderView view = view_of(kSnapshotFraming, run);
+  const Picture picture = Snapshots(run, {}, view, false).picture_at(1.0, 9.0, view);
+  EXPECT_EQ(picture.panels.at(0).scene.dots.at(0).points_m.size(), 2U);  // the profile's
+  EXPECT_TRUE(picture.detail.starts_with("before the first view, ")) << picture.detail;
+  EXPECT_EQ(picture.inset.width_px, 0);
 }
 
 TEST(Snapshots, AreEachNthViewAndTheLast) {
