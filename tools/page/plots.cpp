@@ -192,11 +192,12 @@ class PlotMaker {
         const std::vector<Series> levels = coverage_levels(groups_, *voxel_m);
         panel.series.insert(panel.series.end(), levels.begin(), levels.end());
       }
-      double end = 1e-6;
+      double end = 0.0;
       for (const RunRecord& run : records_) {
         if (is_known(run, effort)) end = std::max(end, spent(run, effort, run.views.size()));
       }
-      panel.x = axis_from(kEffortWords[static_cast<std::size_t>(effort)], 0.0, kRoom * end);
+      panel.x = axis_from(kEffortWords[static_cast<std::size_t>(effort)], 0.0,
+                          kRoom * (end > 0.0 ? end : 1.0));
       panel.y = axis_of(panel.series, unit);
       if (records_.size() == 1) {
         panel.shades = {"frontier views (FVS)", frontier_spans(records_[0], effort)};

@@ -316,6 +316,14 @@ TEST_F(ReportTest, DrawsCeilingsWhereTheyAreKnown) {
   }
 }
 
+/// Of a mission that ended before its first view, and over the metres of one view.
+TEST_F(ReportTest, AnAxisOfNothingGoesToOne) {
+  RunRecord record = scored(1, {0.2});
+  record.views.clear();
+  const Json choice = data_of(report_of({record}))["plots"][0]["choices"][0];
+  EXPECT_GE(choice["runs"][0]["panels"][0]["x"]["high"], 1.0);
+}
+
 /// A line a run, and of runs that differ in their seeds alone their mean.
 TEST_F(ReportTest, PlotsHaveTheRunsAndTheMeanOfTheirSeeds) {
   const RunRecord one = scored(1, {0.2, 0.3, 0.4, 0.5});
