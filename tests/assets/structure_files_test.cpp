@@ -24,7 +24,6 @@ TEST(StructureFiles, AreWhatTheProgramWritesOfTheStructure) {
   }
 }
 
-/// The message of the BadInput that reading throws; empty when it reads.
 std::string complaint(const StructureTexts& texts) {
   return test::fault_of([&] { read_structure(texts); });
 }

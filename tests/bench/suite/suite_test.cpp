@@ -6,7 +6,7 @@
 
 #include "bench/suite/score.hpp"
 #include "bench/suite/standings.hpp"
-#include "sim/core/error.hpp"
+#include "tests/support/fault.hpp"
 
 namespace gnbv {
 namespace {
@@ -114,12 +114,7 @@ TEST(SuiteFile, HoldsThePapersScenesThreeOfAKindAndSixteenHeldOut) {
 /// Why the text is no suite.
 std::string fault_of(std::string text, const std::string& from, const std::string& to) {
   text.replace(text.find(from), from.size(), to);
-  try {
-    read_suite(text, "s.yaml");
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return test::fault_of([&] { read_suite(text, "s.yaml"); });
 }
 
 TEST(SuiteFile, FaultsNameLineAndKey) {

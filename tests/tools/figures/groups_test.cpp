@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
-#include "sim/core/error.hpp"
 #include "tests/support/covered_record.hpp"
+#include "tests/support/fault.hpp"
 #include "tools/figures/runs_to_figures.hpp"
 
 namespace gnbv {
@@ -198,12 +198,7 @@ TEST(DressGroups, NamesColoursAndOrderAreTheUsers) {
            {{.labels = {"x"}}, "--labels: value 'x': must be GROUP=VALUE"},
            {{.colours = {"1=red"}}, "--colors: value '1=red': a colour is #rrggbb"},
            {{.order = {"4"}}, "--order: value '4': no such group"}}) {
-    try {
-      dress_groups(groups, bad);
-      FAIL() << words;
-    } catch (const BadInput& error) {
-      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(test::says(test::fault_of([&, &bad = bad] { dress_groups(groups, bad); }), {words}));
   }
 }
 

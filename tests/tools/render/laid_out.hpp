@@ -1,8 +1,8 @@
 // What tests of pictures share: a structure that nobody flew, layouts of one run, plain images.
 #pragma once
 
-#include "sim/core/error.hpp"
 #include "sim/mesh/world.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/render/pictures.hpp"
@@ -39,17 +39,6 @@ inline RenderView view_of(const PictureKind& kind, RunSource& run,
 inline RenderScene scene_of(const PictureKind& kind, RunSource& run,
                             const PictureOptions& options = {}) {
   return kind.draw(run, options, view_of(kind, run, options)).panels.at(0).scene;
-}
-
-/// The message of the BadInput that it throws; empty where it throws none.
-template <typename Call>
-std::string complaint(const Call& call) {
-  try {
-    call();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 /// All of one grey.

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "sim/core/child_process.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tools/render/film.hpp"
@@ -91,7 +90,7 @@ TEST(Film, HalfWrittenLeavesNothing) {
 TEST(Film, NamesWhatIsMissing) {
   const TempFolder temp;
   const auto said = [&](const char* name) {
-    return complaint([&] { const Film film(temp.path() / name, 32, 24, 24); });
+    return test::fault_of([&] { const Film film(temp.path() / name, 32, 24, 24); });
   };
   const std::string path = std::getenv("PATH");
   const std::string python = python_program();

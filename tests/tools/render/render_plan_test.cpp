@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tests/support/flown.hpp"
 #include "tests/tools/render/laid_out.hpp"
@@ -81,8 +80,8 @@ TEST(PlanPicture, RunsThatAreNoToursAreRefused) {
   other.scenario.planner.utility.name = "proposed";
   RunSource run(other, tour.flown.world);
   std::vector<Vec3> points;
-  const std::string said = complaint([&] { kPlanPicture.frame(run, {}, points); });
-  EXPECT_NE(said.find("was flown by proposed"), std::string::npos) << said;
+  EXPECT_TRUE(test::says(test::fault_of([&] { kPlanPicture.frame(run, {}, points); }),
+                         {"was flown by proposed"}));
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ TEST(CandidatesRecord, DamageIsNamed) {
   EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
   write_candidates(watched(), temp.path());
   const auto said = [&](std::size_t iteration) {
-    return complaint([&] { read_candidates(temp.path(), iteration); });
+    return test::fault_of([&] { read_candidates(temp.path(), iteration); });
   };
   EXPECT_NE(said(99).find("--candidates --out NEW"), std::string::npos);
   write_file_atomically(temp.path() / "candidates.jsonl", "{\"iteration\":1,\"x_m\":\n");

@@ -201,7 +201,7 @@ TEST(Render, SizeIsHonoured) {
 
 TEST(Render, ImpossibleAndHugeSizesAreRefused) {
   const auto drawn = [](int width_px, int height_px) {
-    return complaint([&] { render({}, view_from({-9, 0, 0}, Vec3::Zero(), width_px, height_px)); });
+    return test::fault_of([&] { render({}, view_from({-9, 0, 0}, Vec3::Zero(), width_px, height_px)); });
   };
   EXPECT_NE(drawn(0, 10), "");
   EXPECT_NE(drawn(10, -1), "");
@@ -266,7 +266,7 @@ TEST(Png, RoundTripsAndNamesThePathOnError) {
   EXPECT_EQ(back.rgb, image.rgb);
   for (const auto& call : {std::function<void()>([&] { write_png(image, "/nowhere/a.png"); }),
                            std::function<void()>([&] { read_png("/nowhere/a.png"); })}) {
-    EXPECT_NE(complaint(call).find("/nowhere/a.png"), std::string::npos);
+    EXPECT_NE(test::fault_of(call).find("/nowhere/a.png"), std::string::npos);
   }
 }
 

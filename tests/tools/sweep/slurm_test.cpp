@@ -9,6 +9,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {
@@ -59,12 +60,8 @@ TEST(BatchScript, WhatSbatchWarnsOfIsNoPartOfTheId) {
   EXPECT_EQ(submit(temp.path() / "it's.sbatch"), "42");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "careful\n");
   sbatch_that("echo 'no such partition' >&2; exit 1");
-  try {
-    submit(temp.path() / "it's.sbatch");
-    ADD_FAILURE() << "a refusal is no id";
-  } catch (const BadInput& error) {
-    EXPECT_THAT(error.what(), HasSubstr("it's.sbatch: no such partition"));
-  }
+  EXPECT_THAT(test::fault_of([&] { submit(temp.path() / "it's.sbatch"); }),
+              HasSubstr("it's.sbatch: no such partition"));
   setenv("PATH", path.c_str(), 1);
   EXPECT_FALSE(fs::exists(temp.path() / "it's.sbatch.stderr"));
 }
