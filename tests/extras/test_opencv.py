@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pycolmap
 import pytest
-from conftest import gnbv
+from conftest import gnbv, rows
 
 SIZE = 160, 120
 K = np.array([[118.0, 0.0, 81.3], [0.0, 117.0, 57.9], [0.0, 0.0, 1.0]])
@@ -57,8 +57,10 @@ def test_the_clouds_points_project_to_pixels_of_their_depth(flown):
     model = pycolmap.Reconstruction(str(folder / "sparse/0"))
     (camera,) = model.cameras.values()
     assert camera.model.name == name
+    assert model.num_images() == model.num_reg_images() == len(rows(run / "frames/poses.csv"))
     shown = 0
     for image in model.images.values():
+        assert (folder / "images" / image.name).exists()
         stem = f"{int(image.name.split('_')[-1][:-4]):04d}_rgbd"
         depth = cv2.imread(str(run / f"frames/{stem}.depth.png"), cv2.IMREAD_UNCHANGED)
         seen = [p for p in image.points2D if p.has_point3D()]
