@@ -1,10 +1,18 @@
 """Missions are short: smoke, a few views."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 
 SHORT = {"planner.termination.max_iterations": 6}
+
+
+def python(*words, **more):
+    """The end of a Python of its own, and what it said."""
+    command = [sys.executable, *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, **more)
 
 
 @pytest.fixture(scope="session")

@@ -1,22 +1,16 @@
 """The examples run as they are."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from conftest import python
 
 EXAMPLES = Path(__file__).parents[2] / "tools" / "python" / "examples"
 
 
 def said(name, *arguments):
-    done = subprocess.run(
-        [sys.executable, EXAMPLES / name, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = python(EXAMPLES / name, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

@@ -176,22 +176,14 @@ def test_ctrl_c_ends_a_wait_and_what_is_left_says_so():
     env.close()
 
 
-BAD = [
-    ("single", [np.zeros(3), np.zeros((1, 4)), np.full(4, np.nan), [0, 0, np.inf, 0], None, "up"]),
-    (
-        "vector",
-        [
-            np.zeros((1, 4)),
-            np.zeros((3, 4)),
-            np.zeros(4),
-            [[0] * 4, [np.nan] * 4],
-            [[0] * 4, [0] * 3],
-        ],
-    ),
-]
+NAN, ZEROS = [np.nan] * 4, [0] * 4
+BAD = {
+    "single": [np.zeros(3), np.zeros((1, 4)), np.full(4, np.nan), [0, 0, np.inf, 0], None, "up"],
+    "vector": [np.zeros((1, 4)), np.zeros((3, 4)), np.zeros(4), [ZEROS, NAN], [ZEROS, [0] * 3]],
+}
 
 
-@pytest.mark.parametrize("kind, bad", BAD)
+@pytest.mark.parametrize("kind, bad", BAD.items())
 def test_an_action_that_is_none_moves_nothing(kind, bad):
     """Oracle: the same actions without the bad ones among them."""
     batch = () if kind == "single" else (2,)

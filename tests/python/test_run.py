@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import python
 
 import gnbv
 
@@ -217,13 +218,7 @@ except KeyboardInterrupt:
 
 def python_says(code):
     """What a Python of its own prints, word by word."""
-    done = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(code)],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=120,
-    )
+    done = python("-c", textwrap.dedent(code), timeout=120)
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 
@@ -285,11 +280,7 @@ def test_no_ctrl_c_kills_python_and_one_that_comes_late_is_pythons():
 
 @pytest.mark.parametrize(
     ("what", "body"),
-    [
-        ("planner", "while True: pass"),
-        ("planner", "time.sleep(600)"),
-        ("utility", "time.sleep(600)"),
-    ],
+    [("planner", "while True: pass")] + [(w, "time.sleep(600)") for w in ("planner", "utility")],
 )
 def test_a_second_ctrl_c_ends_what_the_users_own_code_does(what, body):
     """That code runs in this process (a planner) or in one of its own (a utility)."""
@@ -312,11 +303,5 @@ def test_a_second_ctrl_c_ends_what_the_users_own_code_does(what, body):
 
 
 def test_the_command_is_the_program():
-    said = subprocess.run(
-        [sys.executable, "-c", "from gnbv._program import main; main()", "--version"],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ,
-    )
+    said = python("-c", "from gnbv._program import main; main()", "--version")
     assert said.stdout.strip() == gnbv.__version__

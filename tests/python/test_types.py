@@ -2,11 +2,10 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from conftest import python
 
 import gnbv
 
@@ -17,9 +16,8 @@ SOURCES = Path(__file__).parents[2] / "tools" / "python" / "gnbv"
 def test_the_stub_of_the_extension_is_current(tmp_path):
     pytest.importorskip("nanobind")
     out = tmp_path / "_core.pyi"
-    subprocess.run(
-        [sys.executable, "-m", "nanobind.stubgen", "-m", "gnbv._core", "-o", out], check=True
-    )
+    said = python("-m", "nanobind.stubgen", "-m", "gnbv._core", "-o", out)
+    assert said.returncode == 0, said.stderr
     assert out.read_text() == (SOURCES / "_core.pyi").read_text(), (
         f"python -m nanobind.stubgen -m gnbv._core -o {SOURCES / '_core.pyi'}"
     )
@@ -27,26 +25,15 @@ def test_the_stub_of_the_extension_is_current(tmp_path):
 
 def test_mypy_is_content():
     pytest.importorskip("mypy")
-    said = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--cache-dir=/dev/null", SOURCES],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=SOURCES.parent,
-    )
+    words = ("mypy", "--strict", "--cache-dir=/dev/null")
+    said = python("-m", *words, SOURCES, cwd=SOURCES.parent)
     assert said.returncode == 0, said.stdout
 
 
 def test_ruff_is_content():
-    ruff = pytest.importorskip("ruff")
-    assert ruff
+    pytest.importorskip("ruff")
     for command in (["check"], ["format", "--check"]):
-        said = subprocess.run(
-            [sys.executable, "-m", "ruff", *command, SOURCES, Path(__file__).parent],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        said = python("-m", "ruff", *command, SOURCES, Path(__file__).parent)
         assert said.returncode == 0, said.stdout
 
 
@@ -71,13 +58,7 @@ def test_what_cannot_run_says_so_in_one_line(spoilt, said, tmp_path):
         next(copy.glob("_core*.so")).write_bytes(b"\x7fELF, but cut short")
     else:
         (tmp_path / "gymnasium.py").write_text("raise ModuleNotFoundError('none')\n")
-    ended = subprocess.run(
-        [sys.executable, "-c", "import gnbv.gym"],
-        capture_output=True,
-        text=True,
-        check=False,
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
-    )
+    ended = python("-c", "import gnbv.gym", env={**os.environ, "PYTHONPATH": str(tmp_path)})
     assert ended.returncode == 1
     last = ended.stderr.splitlines()[-1]
     assert last.startswith("ImportError: gnbv") and said in last

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import python
 
 import gnbv
 from gnbv._program import call, environment
@@ -124,14 +125,8 @@ def test_names_are_words(tmp_path):
 
 
 def test_a_function_is_a_row_of_the_papers_table(short, tmp_path):
-    tables = gnbv.table(
-        "lab_model",
-        utilities={"my_own": mine, "walk": wander},
-        oracle=False,
-        set=short,
-        out=tmp_path / "c",
-        jobs=2,
-    )
+    how = {"oracle": False, "set": short, "out": tmp_path / "c", "jobs": 2}
+    tables = gnbv.table("lab_model", utilities={"my_own": mine, "walk": wander}, **how)
     for label in ("my_own", "walk", "Proposed"):
         assert label in str(tables[0])
 
@@ -143,15 +138,9 @@ def test_a_failing_function_is_a_failed_cell_that_says_why(short, tmp_path):
     def lost(belief, history):
         raise LookupError("no way")
 
+    how = {"seeds": 1, "set": short, "ceiling": False, "out": tmp_path / "c"}
     with pytest.raises(gnbv.Failed) as failed:
-        gnbv.compare(
-            "smoke",
-            utilities=["proposed", raises, lost],
-            seeds=1,
-            set=short,
-            ceiling=False,
-            out=tmp_path / "c",
-        )
+        gnbv.compare("smoke", utilities=["proposed", raises, lost], **how)
     # the last line of each traceback, and whose it is
     said = str(failed.value)
     assert "smoke, raises: without a result: exit code 1: RuntimeError: no such luck" in said
@@ -165,13 +154,9 @@ def test_what_the_program_says_is_utf_8_in_any_locale(tmp_path):
         "try: call('run', 'bad.yaml')\n"
         "except gnbv.BadInput as bad: print('n\\u00e4me: is no' in str(bad), ascii(str(bad)))\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-X", "utf8=0", "-c", code],
-        env={**environment(), "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"},
-        capture_output=True,
-        check=False,
-    )
-    assert done.stdout.startswith(b"True"), done.stdout + done.stderr
+    ascii_only = {**environment(), "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"}
+    done = python("-X", "utf8=0", "-c", code, env=ascii_only)
+    assert done.stdout.startswith("True"), done.stdout + done.stderr
 
 
 def test_a_failure_that_speaks_of_interruptions_is_a_failure(tmp_path, monkeypatch):
