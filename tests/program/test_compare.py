@@ -17,7 +17,7 @@ def runs(folder):
     return [path.parent for path in sorted(folder.glob('cells/*/summary.json'))]
 
 
-def test_compare_flies_what_is_missing_and_judges_the_runs_of_its_folder(run, tmp_path):
+def test_compare_flies_what_is_missing_or_failed_and_judges_the_runs_of_its_folder(run, tmp_path):
     compare = f'compare smoke --utilities proposed,bircher --seeds 2 {FEW} --out . --format'
     table = run(f'{compare} json').json
     proposed, bircher = rows(table, 'coverage at 0.05 m (%)')
@@ -44,6 +44,11 @@ def test_compare_flies_what_is_missing_and_judges_the_runs_of_its_folder(run, tm
         doctored['distance_m']['straight'] = 123.0
         (path / 'summary.json').write_text(json.dumps(doctored))
     run(f'{compare} csv', 'smoke,distance (m),bircher,2,2,123,0,,,0,0,,,,,-')
+    failed = runs(tmp_path)[0]
+    failed.rename(tmp_path / 'gone')  # as a mission leaves it that was killed for its memory
+    failed.with_name(f'{failed.name}.failed.json').write_text('{"failure": "killed by signal 9"}')
+    run(f'{compare} csv')
+    assert failed in runs(tmp_path)
 
 
 def test_compare_takes_a_sweep_and_says_what_it_lacks(run, tmp_path):
@@ -56,16 +61,6 @@ def test_compare_takes_a_sweep_and_says_what_it_lacks(run, tmp_path):
         'one seed: no test', 'smoke, isler: without a result: not flown (seed 2)', code=1)
     run('sweep grid.yaml --quiet --out sweep')
     run('compare --quiet --from sweep')
-
-
-def test_compare_flies_again_what_failed_in_an_earlier_call(run, tmp_path):
-    compare = f'compare smoke --utilities proposed,isler --seeds 1 {FEW} --out .'
-    run(compare)
-    failed = runs(tmp_path)[0]
-    failed.rename(tmp_path / 'gone')  # as a mission leaves it that was killed for its memory
-    failed.with_name(f'{failed.name}.failed.json').write_text('{"failure": "killed by signal 9"}')
-    run(compare)
-    assert failed in runs(tmp_path)
 
 
 def test_a_file_of_rows_without_a_mission_is_none(run, tmp_path):

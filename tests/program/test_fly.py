@@ -125,7 +125,7 @@ def test_several_clients_hear_the_vehicle_under_its_number(run):
         assert end.err.count('gnbv: speaking to') == 2
         for udp in (a, b):
             first = udp.recv(2048)
-            assert first[5] == 7 and first[7:10] == b'\0\0\0', 'a heartbeat'
+            assert (first[0], first[5]) == (0xfd, 7) and first[7:10] == b'\0\0\0', 'a heartbeat'
     run('fly smoke --set vehicle.system_id=0', 'vehicle.system_id', code=2)
     run('fly smoke --local-origin nowhere', code=2)
 

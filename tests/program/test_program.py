@@ -131,10 +131,6 @@ def test_a_run_that_is_there_is_kept(run, tmp_path, copy_of):
     assert (tmp_path / 'run/summary.json').read_bytes() == before
 
 
-def test_json_is_alone_on_stdout(run):
-    assert run(f'run smoke {ONE} --out run --json').json['iterations'] == 1
-
-
 def test_a_mission_that_ends_before_it_explored_says_why(run, tmp_path):
     # in a corner, looking away, and without frontier views
     run("run smoke --quiet --set 'start={position_m: [0, -3.9, 4.5], yaw_deg: -90, "

@@ -35,6 +35,13 @@ def rows_of(path):
         return list(csv.DictReader(lines))
 
 
+def row_of(mesh, scenario, structure, method, seed, value, **more):
+    """What a comparison reads of a mission."""
+    mission = f'{scenario}{structure}{mesh}{method}{seed}'
+    return dict(zip(COLUMNS, (mission, scenario, structure, mesh, method, '', 'c', 'p',
+                              'max_iterations', mission, seed, value))) | more
+
+
 def write_rows(path, rows):
     with path.open('w', newline='') as lines:
         writer = csv.DictWriter(lines, rows[0].keys(), lineterminator='\n')
@@ -122,10 +129,10 @@ def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
     rows, by_structure = [], {}
     for s in range(8):
         for m, method in enumerate(('base', 'own')):
-            values = [0.8 + 0.01 * s + 0.002 * seed + m * (0.004 * (s % 4) - 0.003) for seed in range(3)]
+            values = [0.8 + 0.01 * s + 0.002 * seed + m * (0.004 * (s % 4) - 0.003)
+                      for seed in range(3)]
             by_structure[method, s] = sum(values) / 3
-            rows += [dict(zip(COLUMNS, (f'{s}{m}{seed}', f'scene {s}', f's{s}', '', method, '', 'c',
-                                        'p', 'max_iterations', f'{s}{m}{seed}', seed, value)))
+            rows += [row_of('', f'scene {s}', f's{s}', method, seed, value)
                      for seed, value in enumerate(values)]
     write_rows(tmp_path / 'rows.csv', rows)
     table = run('compare --from rows.csv --baseline base --format json').json
@@ -141,21 +148,18 @@ def test_scipy_has_the_same_p_and_intervals_of_the_rows(run, tmp_path):
 
 def test_rows_of_one_scenario_around_two_structures_are_of_two(run, tmp_path):
     for structure in ('aircraft', 'a340.obj'):
-        write_rows(tmp_path / f'{structure}.csv', [
-            dict(zip(COLUMNS, (f'{structure}{method}{seed}', 'aircraft', structure, '', method, '', 'c',
-                               'p', 'max_iterations', f'{method}{seed}', seed, 0.9)))
-            for method in ('base', 'own') for seed in (1, 2)])
+        write_rows(tmp_path / f'{structure}.csv',
+                   [row_of('', 'aircraft', structure, method, seed, 0.9)
+                    for method in ('base', 'own') for seed in (1, 2)])
     table = run('compare --from aircraft.csv a340.obj.csv --baseline base --format json').json
     assert {'aircraft', 'a340.obj'} <= {row['scenario'] for row in table['rows']}
     run('compare --from aircraft.csv aircraft.csv', 'two rows of aircraft, base, seed 1', code=2)
 
 
 def test_files_of_one_name_are_as_many_structures_as_meshes(run, tmp_path):
-    rows = [dict(zip(COLUMNS, (f'{mesh}{method}', 'aircraft', 'part.obj', mesh * 64, method, '', 'c',
-                               'p', 'max_iterations', f'{mesh}{method}', 1, 0.9)))
-            for mesh in 'ab' for method in ('base', 'own')]
     for mesh in 'ab':
-        write_rows(tmp_path / f'{mesh}.csv', [row for row in rows if row['structure_sha256'][0] == mesh])
+        write_rows(tmp_path / f'{mesh}.csv', [row_of(mesh * 64, 'aircraft', 'part.obj', method, 1, 0.9)
+                                              for method in ('base', 'own')])
     table = run('compare --from a.csv b.csv --baseline base --format json').json
     assert {row['scenario'] for row in table['rows']} == {
         'part.obj (aaaaaaaa)', 'part.obj (bbbbbbbb)', 'all 2 structures'}
@@ -165,10 +169,9 @@ def test_files_of_one_name_are_as_many_structures_as_meshes(run, tmp_path):
     ('area_samples', (0, 155000), 'score.area_samples'),
     ('budget_metres', (600, 40), 'score.budget_m')])
 def test_rows_of_unlike_measures_are_refused(run, tmp_path, figure, values, says):
-    write_rows(tmp_path / 'rows.csv', [
-        dict(zip([*COLUMNS, figure], (method, 'aircraft', 'aircraft', '', method, '', 'c', 'p',
-                                      'max_iterations', method, 1, 0.9, value)))
-        for method, value in zip(('base', 'own'), values)])
+    write_rows(tmp_path / 'rows.csv',
+               [row_of('', 'aircraft', 'aircraft', method, 1, 0.9, **{figure: value})
+                for method, value in zip(('base', 'own'), values)])
     run('compare --from rows.csv --baseline base', 'aircraft', 'base', 'own', says, code=2)
 
 

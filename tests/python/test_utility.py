@@ -1,8 +1,6 @@
 """A utility in five lines."""
 
 import functools
-import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 
