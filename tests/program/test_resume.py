@@ -149,29 +149,28 @@ def test_one_folder_is_flown_into_by_one(run, killed):
 
 # ---- what a run began with, exchanged ----
 @pytest.fixture
-def meshed(run, tmp_path):
-    """A finished run on a mesh of which a vertex was moved since."""
-    run('asset smoke -o mesh.obj')
-    run(f'run smoke {" ".join(FEW)} --mesh mesh.obj --out run')
-    mesh = tmp_path / 'mesh.obj'
-    mesh.write_text(re.sub('\nv .*', '\nv 0.1 0.2 0.9', mesh.read_text(), count=1))
-    return tmp_path / 'run'
+def mesh(whole, copy_of):
+    """Of which a vertex was moved since there is a finished run on it."""
+    path = whole('asset', 'smoke', '-o', name='mesh.obj').path
+    copy_of(*SMOKE[:-1], '--mesh', path, '--out')
+    path.write_text(re.sub('\nv .*', '\nv 0.1 0.2 0.9', path.read_text(), count=1))
+    return path
 
 
 @pytest.mark.parametrize('words, code', [
-    (f'{RESUME} --mesh mesh.obj', 2), ('render run -o out.png', 2), ('score run --update', 2),
+    (f'{RESUME} --mesh {{mesh}}', 2), ('render run -o out.png', 2), ('score run --update', 2),
     ('render run --what candidates --iteration 2 -o out.png', 2), ('ceiling run', 2),
     # said, and no more, by what does without it
     ('report run -o out.html', 0), ('surface run -o out', 0),
     ('export run --format tum -o out', 0)])
-def test_every_command_says_that_the_mesh_was_exchanged(run, meshed, words, code):
-    run(words, 'mesh.obj is not what the run began with', code=code)
+def test_every_command_says_that_the_mesh_was_exchanged(run, mesh, words, code):
+    run(words.format(mesh=mesh), 'mesh.obj is not what the run began with', code=code)
 
 
-def test_the_mesh_asked_for_by_name_is_another_question(run, meshed):
-    run('ceiling run --mesh mesh.obj')
-    (meshed / 'summary.json').unlink()  # as of one that was killed while finishing
-    run(f'{RESUME} --mesh mesh.obj', 'is not what the run began with', code=2)
+def test_the_mesh_asked_for_by_name_is_another_question(run, mesh, tmp_path):
+    run(f'ceiling run --mesh {mesh}')
+    (tmp_path / 'run/summary.json').unlink()  # as of one that was killed while finishing
+    run(f'{RESUME} --mesh {mesh}', 'is not what the run began with', code=2)
 
 
 def test_an_exchanged_profile_is_refused(run, whole, tmp_path):
