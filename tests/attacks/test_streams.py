@@ -7,7 +7,6 @@ import os
 import pytest
 from program import Gnbv, files_of, is_sanitized, summary
 
-FULL = 'gnbv: stdout: cannot write: No space left on device'
 FLY = 'gnbv run smoke --set planner.termination.max_iterations=3 --out run'
 # shell words: expected exit codes, and what stderr says of a failure
 STREAMS = {

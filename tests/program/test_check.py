@@ -3,20 +3,13 @@ import json
 import re
 
 import pytest
-from program import hash_of, json_of, summary
+from program import changed, hash_of, json_of, summary
 
 
 @pytest.fixture
 def flown(whole):
     """A mission that no test changes."""
     return whole('run', 'smoke', '--quiet', '--out').path
-
-
-def changed(path, change):
-    """Writes the JSON anew as `change` leaves it."""
-    content = json_of(path)
-    change(content)
-    path.write_text(json.dumps(content))
 
 
 def test_the_gate_of_this_repository_turns_red_for_each_figure_alone(run, whole, request, tmp_path):
@@ -96,6 +89,3 @@ def test_checks_against_a_baseline_that_it_wrote(run, flown, tmp_path):
             lambda baseline: baseline['of']['configuration'].update(seed='99'))
     run(check, 'seed: 99 -> 1', code=2)
     run(f'{check} --update', 'seed: 99 -> 1', code=2)
-
-
-# ---- sizes of the user's own ----

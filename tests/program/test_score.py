@@ -4,7 +4,7 @@ import re
 import struct
 
 import pytest
-from program import hash_of, json_of, summary
+from program import changed, hash_of, json_of, summary
 
 SMOKE = 'run', 'smoke', '--quiet', '--out'
 SCORED = ('precision_recall', 'accuracy_m', 'completeness_m', 'chamfer_m', 'density',
@@ -43,13 +43,6 @@ def write_points(path, points):
     path.write_bytes(b'ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty float x\n'
                      b'property float y\nproperty float z\nend_header\n' % len(points)
                      + b''.join(struct.pack('<3f', *p) for p in points))
-
-
-def changed(path, change):
-    """Writes the JSON anew as `change` leaves it."""
-    content = json_of(path)
-    change(content)
-    path.write_text(json.dumps(content))
 
 
 def test_updates_a_run_to_the_very_bytes_that_it_wrote_itself(score, flown, copy):

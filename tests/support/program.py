@@ -125,6 +125,13 @@ def json_of(path):
     return json.loads(path.read_text())
 
 
+def changed(path, change):
+    """Writes the JSON anew as `change` leaves it."""
+    content = json_of(path)
+    change(content)
+    path.write_text(json.dumps(content))
+
+
 def summary(run):
     """What summary.json holds; None before there is one."""
     path = run / 'summary.json'
