@@ -1,20 +1,15 @@
 // Laws of pictures for which a mission is flown again: they show what the mission believed.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <set>
 
-#include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
-#include "sim/core/text.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
 #include "tools/run/candidates_jsonl.hpp"
-#include "tools/run/cloud_file.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {
@@ -114,21 +109,6 @@ void write_candidates(const Watched& of, const std::filesystem::path& folder) {
   CandidatesFile file(folder, 1);
   for (const auto& [iteration, plan] : of.plans) file.write(iteration, plan);
   file.finish();
-}
-
-TEST(CandidatesRecord, DamageIsNamed) {
-  const TempFolder temp;
-  EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
-  write_candidates(watched(), temp.path());
-  const auto said = [&](std::size_t iteration) {
-    return test::fault_of([&] { read_candidates(temp.path(), iteration); });
-  };
-  EXPECT_NE(said(99).find("--candidates --out NEW"), std::string::npos);
-  write_file_atomically(temp.path() / "candidates.jsonl", "{\"iteration\":1,\"x_m\":\n");
-  EXPECT_NE(said(1).find("candidates.jsonl:1"), std::string::npos);
-  EXPECT_NE(said(1).find("--candidates --out NEW"), std::string::npos);
-  write_file_atomically(temp.path() / "candidates.jsonl", "");  // an oracle's: it samples none
-  EXPECT_FALSE(read_candidates(temp.path(), 1).has_value());
 }
 
 /// A decision that is read, or planned again where the run kept no candidates, has the clusters

@@ -106,6 +106,7 @@ const std::vector<Damage> kDamages = {
     {kCandidatesFile, "fvs", "luck", ":1: sampler: no sampler is named luck"},
     {kCandidatesFile, "2,\"rej", "-2,\"rej", ":1: cluster: is no whole number from 0 on"},
     {kCandidatesFile, "\"yaw_rad\":0,", "", ":1: key 'yaw_rad' not found; `gnbv run"},
+    {kCandidatesFile, "1,\"y_m", "", ":1: "},
     {kBeliefsFile, "2}", "2,\"unknown\":[0,101]}", ":2: runs end beyond the 100 voxels"},
     {kBeliefsFile, "2}", "2,\"frontier\":[99,18446744073709551615]}", ":2: runs end beyond"},
     {kBeliefsFile, "2}", "2,\"unknown\":[0,1,2]}", ":2: is no list of gaps and lengths"},

@@ -45,15 +45,18 @@ TEST(CandidatesFile, GoesOnWithinABurstAndAtItsEnd) {
                    {"holds no candidates of iteration 6, which was flown"}));
 }
 
-TEST(CandidatesFile, OfAnOracleStaysEmpty) {
+TEST(CandidatesFile, OfAnOracleStaysEmptyAndThatOfARunWithoutOneIsRefused) {
   TempFolder temp;
-  CandidatesFile(temp.path(), 1);
+  EXPECT_THROW(CandidatesFile(temp.path(), 3), BadInput);
+  CandidatesFile(temp.path(), 1);  // the start alone is no decision
   EXPECT_NO_THROW(CandidatesFile(temp.path(), 7));
   EXPECT_EQ(read_file(part_of(temp.path() / kCandidatesFile)), "");
+  EXPECT_FALSE(read_candidates(temp.path(), 1));
 }
 
 TEST(RoundTrip, CandidatesJsonl) {
   TempFolder temp;
+  EXPECT_FALSE(read_candidates(temp.path(), 1)) << "no file";
   Plan plan;
   plan.candidates = {
       {.view = {Vec3(1.0 / 3.0, -1e-300, 2), 0.1 + 0.2},
@@ -86,6 +89,8 @@ TEST(RoundTrip, CandidatesJsonl) {
     EXPECT_EQ(read->candidates[1].rejected, Rejection::cluster_hidden);
     copy.write(iteration, *read);
   }
+  EXPECT_TRUE(
+      says(fault_of([&] { read_candidates(temp.path(), 99); }), {"--candidates --out NEW"}));
   const std::optional<Plan> read = read_candidates(temp.path(), 3);
   EXPECT_EQ(read->chosen, burst.chosen);
   for (std::size_t i = 0; i < burst.candidates.size(); ++i) {
