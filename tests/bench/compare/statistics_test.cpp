@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -79,17 +78,10 @@ TEST(Wilcoxon, ExactPIsThatOfAllSignPatternsTiesAndZerosIncluded) {
 
 // Wilcoxon and Wilcox 1964: the greatest smaller rank sum with two-sided p <= 0.05.
 TEST(Wilcoxon, CriticalValuesAreThoseOfThePublishedTable) {
-  for (const auto& [n, critical] : std::vector<std::pair<int, int>>{{6, 0},
-                                                                    {7, 2},
-                                                                    {8, 3},
-                                                                    {9, 5},
-                                                                    {10, 8},
-                                                                    {12, 13},
-                                                                    {15, 25},
-                                                                    {20, 52},
-                                                                    {25, 89},
-                                                                    {30, 137},
-                                                                    {40, 264}}) {
+  for (const auto& [n, critical] :
+       {std::pair(6, 0), std::pair(7, 2), std::pair(8, 3), std::pair(9, 5), std::pair(10, 8),
+        std::pair(12, 13), std::pair(15, 25), std::pair(20, 52), std::pair(25, 89),
+        std::pair(30, 137), std::pair(40, 264)}) {
     // negative where the greatest ranks that still fit into the wanted sum are
     const auto p_of_sum = [](int most, int sum) {
       std::vector<double> differences;
