@@ -198,7 +198,8 @@ TEST(DressGroups, NamesColoursAndOrderAreTheUsers) {
            {{.labels = {"x"}}, "--labels: value 'x': must be GROUP=VALUE"},
            {{.colours = {"1=red"}}, "--colors: value '1=red': a colour is #rrggbb"},
            {{.order = {"4"}}, "--order: value '4': no such group"}}) {
-    EXPECT_TRUE(test::says(test::fault_of([&, &bad = bad] { dress_groups(groups, bad); }), {words}));
+    EXPECT_TRUE(
+        test::says(test::fault_of([&, &bad = bad] { dress_groups(groups, bad); }), {words}));
   }
 }
 

@@ -32,15 +32,9 @@ TEST(Pictures, OneCameraShowsWhatAllRunsHave) {
 
 TEST(Pictures, OfEachKindFindALayoutAtAnySize) {
   RunSource run(made_record(), cube());
-  constexpr std::array<std::array<int, 2>, 8> kSizes_px = {{{480, 270},
-                                                            {320, 240},
-                                                            {240, 320},
-                                                            {320, 2000},
-                                                            {2000, 240},
-                                                            {40, 30},
-                                                            {16, 16},
-                                                            {1280, 720}}};
-  for (const auto& [width, height] : kSizes_px) {
+  for (const auto& [width, height] :
+       {std::pair(480, 270), std::pair(320, 240), std::pair(240, 320), std::pair(320, 2000),
+        std::pair(2000, 240), std::pair(40, 30), std::pair(16, 16), std::pair(1280, 720)}) {
     for (const bool has_caption : {true, false}) {
       for (const PictureKind* kind : picture_kinds()) {
         // frame what a true mission had to choose from, or meant to do

@@ -201,7 +201,9 @@ TEST(Render, SizeIsHonoured) {
 
 TEST(Render, ImpossibleAndHugeSizesAreRefused) {
   const auto drawn = [](int width_px, int height_px) {
-    return test::fault_of([&] { render({}, view_from({-9, 0, 0}, Vec3::Zero(), width_px, height_px)); });
+    return test::fault_of([&] {
+      render({}, view_from({-9, 0, 0}, Vec3::Zero(), width_px, height_px));
+    });
   };
   EXPECT_NE(drawn(0, 10), "");
   EXPECT_NE(drawn(10, -1), "");
