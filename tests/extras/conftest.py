@@ -9,6 +9,7 @@ import re
 import signal
 import socket
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -20,9 +21,21 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
-def gnbv(*arguments) -> subprocess.CompletedProcess[str]:
+def gnbv(*arguments, code=0, folder=None, **environment) -> subprocess.CompletedProcess[str]:
+    """The program in that folder, to its end with that exit code."""
     command = [os.environ["GNBV"], *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, cwd=folder,
+                          env=os.environ | environment)
+    assert done.returncode == code, f"{arguments}: {done.returncode}: {done.stderr}"
+    return done
+
+
+def without_packages(folder: Path) -> dict[str, str]:
+    """The environment in which gnbv finds a Python that has no packages."""
+    python = folder / "python"
+    python.write_text(f'#!/bin/sh\nexec {sys.executable} -S -E "$@"\n')
+    python.chmod(0o755)
+    return {"GNBV_PYTHON": str(python)}
 
 
 def rows(file: Path) -> list[dict[str, str]]:
@@ -34,9 +47,7 @@ def rows(file: Path) -> list[dict[str, str]]:
 def run(tmp_path_factory) -> Path:
     """A mission of `smoke` that kept its frames, of views between which it turns little."""
     folder = tmp_path_factory.mktemp("runs") / "run"
-    flown = gnbv("run", "smoke", "--quiet", "--frames", "--set", "planner.fvs.mode=single", "--out",
-                 folder)
-    assert flown.returncode == 0, flown.stderr
+    gnbv("run", "smoke", "--quiet", "--frames", "--set", "planner.fvs.mode=single", "--out", folder)
     return folder
 
 
@@ -44,12 +55,7 @@ def run(tmp_path_factory) -> Path:
 def export(run):
     """export(format) -> the folder that `gnbv export` wrote."""
 
-    def written(kind: str) -> Path:
-        done = gnbv("export", run, "--format", kind)
-        assert done.returncode == 0, done.stderr
-        return Path(done.stdout.strip())
-
-    return written
+    return lambda kind: Path(gnbv("export", run, "--format", kind).stdout.strip())
 
 
 async def first(stream, holds=lambda value: True, timeout_s=60.0):

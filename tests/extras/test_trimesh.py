@@ -24,7 +24,6 @@ def test_reads_a_structure_as_large_as_it_is(tmp_path, kind):
     """Oracle: the figures that `gnbv asset` prints of what it wrote."""
     file = tmp_path / f"smoke.{kind}"
     written = gnbv("asset", "smoke", "-o", file)
-    assert written.returncode == 0
     mesh = trimesh.load(file, force="mesh")
     faces, area_m2 = (float(written.stdout.split(unit)[0].split()[-1])
                       for unit in (" faces", " m2"))
@@ -37,8 +36,7 @@ def test_reads_a_structure_as_large_as_it_is(tmp_path, kind):
 
 def test_reads_the_textured_surface(run, tmp_path):
     """The same surface three times: as many triangles, the same area, a picture on it."""
-    done = gnbv("surface", run, "--quiet")
-    assert done.returncode == 0, done.stderr
+    gnbv("surface", run, "--quiet")
     meshes = {kind: trimesh.load(next((run / "surface").glob(f"*.{kind}")), force="mesh")
               for kind in ("glb", "obj", "ply")}
     faces = {kind: len(mesh.faces) for kind, mesh in meshes.items()}
