@@ -12,14 +12,6 @@ namespace {
 
 const ViewPose kStart = {Vec3(0, 0, 5), 0.3};
 
-/// A wall of 20 m x 20 m at x, facing -x.
-World walled_world(float x_m) {
-  World world;
-  world.structure.vertices_m = {{x_m, -10, -5}, {x_m, 10, -5}, {x_m, 10, 15}, {x_m, -10, 15}};
-  world.structure.faces = {{0, 2, 1}, {0, 3, 2}};
-  return world;
-}
-
 /// Flies a square with turns for that long, and tells each state.
 std::vector<VehicleState> flown_square(Flight& flight, int ticks) {
   std::vector<VehicleState> states;

@@ -13,14 +13,6 @@
 namespace gnbv {
 namespace {
 
-/// A wall of 20 m x 20 m at x, facing -x.
-World walled_world(float x_m = 3.0F) {
-  World world;
-  world.structure.vertices_m = {{x_m, -10, -5}, {x_m, 10, -5}, {x_m, 10, 15}, {x_m, -10, 15}};
-  world.structure.faces = {{0, 2, 1}, {0, 3, 2}};
-  return world;
-}
-
 /// A quadrotor, and an ideal vehicle.
 const std::vector<VehicleConfig> kBoth = [] {
   std::vector<VehicleConfig> both(2);

@@ -1,8 +1,7 @@
 // A vehicle that is hit by what moves.
 #include <gtest/gtest.h>
 
-#include "sim/flight/flight.hpp"
-#include "sim/mesh/world.hpp"
+#include "tests/sim/flight/px4_client.hpp"
 
 namespace gnbv {
 namespace {
@@ -15,45 +14,38 @@ World world_with_cube() {
 }
 const ViewPose kHover = {Vec3(0, 0, 5), 0.3};
 
-Setpoint stay() { return {.p_world_m = kHover.p_world_m, .yaw_rad = kHover.yaw_rad}; }
+/// For ten seconds, or until it is hit; when that was.
+double hovered_s(Flight& flight, const ViewPose& at = kHover) {
+  while (!flight.has_collided() && flight.tick() < 10 * kTicksPerSecond) {
+    flight.command(go_to(at.p_world_m, at.yaw_rad));
+    flight.step();
+  }
+  return static_cast<double>(flight.tick()) * kTick_s;
+}
 
 TEST(MovingBody, HitsAHoveringVehicleWhenItsFaceComesToTheHull) {
   const VehicleConfig vehicle;
   const auto flight = make_flight(vehicle, world_with_cube(), kHover, 1);
-  while (!flight->has_collided() && flight->tick() < 10 * kTicksPerSecond) {
-    flight->command(stay());
-    flight->step();
-  }
+  const double at_s = hovered_s(*flight);
   ASSERT_TRUE(flight->has_collided());
-  const double at_s = static_cast<double>(flight->tick()) * kTick_s;
   const double expected_s = (4.0 - vehicle.airframe.hull_radius_m) / 2.0;
   EXPECT_NEAR(at_s, expected_s, 0.02);  // hovering it sways by millimetres
 }
 
 TEST(MovingBody, IsWhereTheClockOfACloneHasIt) {
   const auto flight = make_flight({}, world_with_cube(), kHover, 1);
-  const auto fly = [](Flight& f) {
-    while (!f.has_collided() && f.tick() < 10 * kTicksPerSecond) {
-      f.command(stay());
-      f.step();
-    }
-    return f.tick();
-  };
   for (int i = 0; i < 100; ++i) {
-    flight->command(stay());
+    flight->command(go_to(kHover.p_world_m, kHover.yaw_rad));
     flight->step();
   }
   const auto clone = flight->clone();
-  EXPECT_EQ(fly(*clone), fly(*flight));
+  EXPECT_EQ(hovered_s(*clone), hovered_s(*flight));
 }
 
 TEST(MovingBody, LeavesWhoeverIsBesideItsWayAlone) {
   const ViewPose beside = {Vec3(0, 1.2, 5), 0.3};
   const auto flight = make_flight({}, world_with_cube(), beside, 1);
-  while (flight->tick() < 10 * kTicksPerSecond) {
-    flight->command({.p_world_m = beside.p_world_m, .yaw_rad = beside.yaw_rad});
-    flight->step();
-  }
+  hovered_s(*flight, beside);
   EXPECT_FALSE(flight->has_collided());
 }
 

@@ -24,6 +24,14 @@ inline Setpoint fly_at(const Vec3& v_world_m_s) {
   return setpoint;
 }
 
+/// A wall of 20 m x 20 m at x, facing -x.
+inline World walled_world(float x_m = 3.0F) {
+  World world;
+  world.structure.vertices_m = {{x_m, -10, -5}, {x_m, 10, -5}, {x_m, 10, 15}, {x_m, -10, 15}};
+  world.structure.faces = {{0, 2, 1}, {0, 3, 2}};
+  return world;
+}
+
 inline VehicleConfig with(const CommanderParameters& commander) {
   VehicleConfig config;
   config.autopilot.commander = commander;
