@@ -144,13 +144,10 @@ TEST(MavlinkParity, AGlobalSetpointIsThatPlace) {
 
 TEST(MavlinkParity, ChangingSpeedIsAcceptedWithinTheVehiclesAndElseDenied) {
   Session session;
-  for (const auto& [kind, speed, result] : {std::tuple{1.0F, 3.0F, 0},
-                                            {0.0F, -1.0F, 0},
-                                            {1.0F, -2.0F, 0},
-                                            {1.0F, 100.0F, 2},
-                                            {1.0F, 0.0F, 2},
-                                            {1.0F, std::nanf(""), 2},
-                                            {2.0F, 1.0F, 3}}) {
+  for (const auto& [kind, speed, result] :
+       {std::tuple(1.0F, 3.0F, 0), std::tuple(0.0F, -1.0F, 0), std::tuple(1.0F, -2.0F, 0),
+        std::tuple(1.0F, 100.0F, 2), std::tuple(1.0F, 0.0F, 2), std::tuple(1.0F, std::nanf(""), 2),
+        std::tuple(2.0F, 1.0F, 3)}) {
     EXPECT_EQ(session.result_of(kDoChangeSpeed, kind, speed), result) << kind << " " << speed;
   }
 }

@@ -69,14 +69,11 @@ void expect_cut_exactly(const Outline& outline, const Eigen::Quaterniond& R) {
     EXPECT_GE(own, -1e-12) << i << ' ' << j << ' ' << k << " is turned over";
     area += std::abs(own);
     if (own < 1e-9) continue;  // has no inside to speak of
-    for (const auto& [s, t] : {std::pair{1.0 / 3, 1.0 / 3},
-                               {0.01, 0.01},
-                               {0.98, 0.01},
-                               {0.01, 0.98},
-                               {0.49, 0.49},
-                               {0.02, 0.49},
-                               {0.49, 0.02}}) {
-      EXPECT_TRUE(is_inside(outline, a + s * (b - a) + t * (c - a))) << i << ' ' << j << ' ' << k;
+    for (const Vec2& at :
+         {Vec2(1.0 / 3, 1.0 / 3), Vec2(0.01, 0.01), Vec2(0.98, 0.01), Vec2(0.01, 0.98),
+          Vec2(0.49, 0.49), Vec2(0.02, 0.49), Vec2(0.49, 0.02)}) {
+      const Vec2 p = a + at.x() * (b - a) + at.y() * (c - a);
+      EXPECT_TRUE(is_inside(outline, p)) << i << ' ' << j << ' ' << k;
     }
   }
   EXPECT_NEAR(area, shoelace(outline), 1e-9 * shoelace(outline));  // sums of doubles
