@@ -57,8 +57,8 @@ const std::vector<Vec3> kThreePatches = {{3.1, 0.1, 4.1}, {-3.1, 3.1, 3.1}, {0.1
 
 /// A planner that keeps what its bursts leave behind.
 struct Flown {
-  explicit Flown(const SmallPlanner& small, int threads = 2)
-      : model(small.model()), scratch(model, threads), planner(make_planner(small.config, model)) {}
+  explicit Flown(const SmallPlanner& small)
+      : model(small.model()), scratch(model, 2), planner(make_planner(small.config, model)) {}
 
   Plan next(const Belief& belief, const History& history = still_history()) {
     return planner->next(belief, history, kCurrent, scratch);
@@ -281,20 +281,6 @@ TEST(Burst, GoesOnAsItWouldHaveAfterEachOfItsViews) {
     expect_same(views_of(resumed.next(belief)), views_of(second));
     recorded.back().view.yaw_rad += 0.1;
     EXPECT_THROW(replay(), BadInput);
-  }
-}
-
-TEST(Burst, IsTheSameAtAnyNumberOfThreads) {
-  const SmallPlanner small = burst_planner([](PlannerConfig& c) { c.fvs.clusters = 3; });
-  const Belief belief = patches(small, kThreePatches);
-  const Plan one = Flown(small, 1).next(belief);
-  ASSERT_GT(one.views.size(), 3U);
-  for (const int threads : {2, 5}) {
-    const Plan plan = Flown(small, threads).next(belief);
-    expect_same(views_of(plan), views_of(one));
-    for (std::size_t i = 0; i < one.views.size(); ++i) {
-      EXPECT_EQ(plan.views[i].score.value, one.views[i].score.value);
-    }
   }
 }
 

@@ -151,22 +151,6 @@ TEST(EndAfterView, TheFirstRuleNamesTheEndAndAPlannerMaySwitchRulesOff) {
   EXPECT_EQ(end(5.0, 0, 0, 4), std::nullopt);
 }
 
-TEST(NextDecision, HandsOutTheViewsOfAPlanInOrderBeforeItAsksForAnother) {
-  History history;
-  int plans = 0;
-  const auto make_plan = [&] {
-    Plan plan{.end = Termination::route_flown};
-    if (++plans == 1) plan.views = back_and_forth(2);
-    return plan;
-  };
-  const auto next = [&] { return next_decision({}, {}, history, make_plan); };
-  for (const Decision& expected : back_and_forth(2)) {
-    EXPECT_TRUE(is_same_view(std::get<Decision>(next()).view, expected.view));
-    EXPECT_EQ(plans, 1);
-  }
-  EXPECT_EQ(std::get<Termination>(next()), Termination::route_flown);
-}
-
 TEST(EndAfterView, MayHaveToWaitForTheEndOfAPlan) {
   History history;
   history.decisions = back_and_forth(11);
