@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "planner/motion/free_space.hpp"
 #include "sim/core/error.hpp"

@@ -1,7 +1,6 @@
 // The decision as a whole: which sampler, which view, and when there is none.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

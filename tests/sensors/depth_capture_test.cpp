@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "sensors/capture.hpp"
 #include "tests/sensors/shapes.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/map/frame_insertion.hpp"
-#include "planner/map/scan_insertion.hpp"
 #include "planner/view/visibility.hpp"
 #include "sensors/capture.hpp"
 #include "sim/core/rng.hpp"

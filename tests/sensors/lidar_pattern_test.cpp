@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/builtin.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/capture.hpp"
 #include "sensors/sights.hpp"

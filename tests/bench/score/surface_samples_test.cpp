@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "bench/score/escape_search.hpp"
 #include "bench/score/point_tree.hpp"
 #include "bench/score/surface_pieces.hpp"
 #include "bench/score/voxel_set.hpp"

@@ -7,7 +7,6 @@
 
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
-#include "planner/map/scan_insertion.hpp"
 #include "planner/map/scan_rays.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/frames.hpp"

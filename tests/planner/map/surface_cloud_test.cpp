@@ -10,7 +10,6 @@
 #include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/depth_rays.hpp"
 #include "bench/reference/pcl_twin.hpp"
-#include "planner/map/scan_insertion.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"
 

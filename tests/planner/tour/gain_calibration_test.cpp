@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <bit>
-
 #include "planner/tour/gains.hpp"
 #include "tests/planner/map/drawn_map.hpp"
 

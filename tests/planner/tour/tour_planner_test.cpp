@@ -58,7 +58,6 @@ TEST(TourPlanner, SearchesByTheMissionsSeed) {
 }
 
 /// Wherever the plan is, it ends when it asks next, and it asks hundreds of times.
-/// on.
 TEST(TourPlanner, AsksOftenWhetherToStopWhereverItIs) {
   const TourWorld world;
   const PlannerModel model = world.model(1);

@@ -14,7 +14,6 @@
 #include "tests/bench/shapes.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mesh_lint/mesh_report.hpp"
-#include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/resolve.hpp"
 #include "tools/mission/start_pose.hpp"

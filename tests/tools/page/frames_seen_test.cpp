@@ -10,7 +10,6 @@
 #include <map>
 #include <set>
 
-#include "sensors/camera_model.hpp"
 #include "sim/core/error.hpp"
 #include "tests/support/made_frames.hpp"
 #include "tests/support/made_run.hpp"

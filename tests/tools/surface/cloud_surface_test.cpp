@@ -4,11 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "bench/score/escape_search.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tests/sim/mesh/mesh_files.hpp"
 #include "tools/run/cloud_file.hpp"

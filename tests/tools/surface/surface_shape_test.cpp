@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "bench/score/escape_search.hpp"
 #include "sensors/ray_scene.hpp"
