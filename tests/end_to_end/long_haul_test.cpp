@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tests/support/flown.hpp"
-#include "tests/support/no_cache.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/execute.hpp"
 
@@ -37,7 +36,7 @@ std::ptrdiff_t entries_of(const fs::path& folder) {
 }
 
 TEST(LongHaul, MemoryDescriptorsAndFilesStayFlat) {
-  const test::NoCache no_cache;
+  setenv("GNBV_CACHE", "", 1);
   const TempFolder temp;
   const fs::path temporary = temp.path() / "tmp";
   fs::create_directory(temporary);

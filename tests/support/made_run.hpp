@@ -1,10 +1,7 @@
 // A small run directory, written by hand, and what it holds.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <filesystem>
-#include <string>
 
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"

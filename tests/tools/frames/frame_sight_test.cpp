@@ -8,7 +8,6 @@
 #include <map>
 #include <mutex>
 
-#include "sensors/camera_model.hpp"
 #include "tests/support/temp_folder.hpp"
 
 namespace gnbv {

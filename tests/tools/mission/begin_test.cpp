@@ -8,7 +8,6 @@
 #include "tests/bench/shapes.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/flown.hpp"
-#include "tests/support/no_cache.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
@@ -118,7 +117,7 @@ TEST(ProfileWarning, NamesTheFirstLegThatIsBlocked) {
 }
 
 TEST(Reference, OfNothingToMeasureIsRefused) {
-  const test::NoCache no_cache;
+  setenv("GNBV_CACHE", "", 1);
   const Scenario scenario = load_scenario("aircraft", {});
   World low{TriangleMesh{}, true};
   test::add_box(low.structure, {0, 0, 0}, {4, 4, 0.2});  // floor_z_m is 0.3

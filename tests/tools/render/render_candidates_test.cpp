@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <string_view>
 
-#include "sensors/capture.hpp"
 #include "sim/core/error.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/run/candidates_jsonl.hpp"
 #include "tools/scene/decision.hpp"
-#include "tools/scene/flight.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {

@@ -12,7 +12,6 @@
 #include "sim/core/file.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tools/render/caption.hpp"
-#include "tools/scene/decision.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,8 +1,6 @@
 // Laws of light and of what stands for surfaces: hollows, ghosts, dots and voxels.
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "sim/core/error.hpp"
 #include "tools/render/renderer.hpp"
 #include "tools/scene/voxels.hpp"

@@ -1,8 +1,6 @@
 // Laws of paint: what cameras see of the structure, on a picture of it.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/mesh/triangle_mesh.hpp"
 #include "tools/render/renderer.hpp"
 #include "tools/scene/structure.hpp"

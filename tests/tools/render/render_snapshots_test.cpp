@@ -6,7 +6,6 @@
 #include "sim/core/error.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tools/render/snapshots.hpp"
-#include "tools/scene/flight.hpp"
 
 namespace gnbv {
 namespace {
