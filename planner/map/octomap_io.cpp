@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -120,7 +121,9 @@ class TreeReader {
     if (id != "OcTree" && id != "ColorOcTree") fail(fmt::format("is an OctoMap of '{}'", id));
     const std::string_view res = value_of("res", data);  // in whatever locale the program is
     const auto [end, error] = std::from_chars(res.data(), res.data() + res.size(), read.voxel_m);
-    if (error != std::errc{} || !(read.voxel_m > 0.0)) fail("states no resolution");
+    if (error != std::errc{} || !(read.voxel_m > 0.0) || std::isinf(read.voxel_m)) {
+      fail("states no resolution");
+    }
     at_ = data + 6;
     if (at_ < bytes_.size()) {
       is_binary ? read_bits(kRootKey, kRootEdge) : read_node(kRootKey, kRootEdge);

@@ -135,7 +135,7 @@ TEST_F(OctomapFiles, DamagedOnesAndMissingFoldersAreRefused) {
   const std::string whole = read_file(folder_ / "map.ot");
   for (const std::string& text :
        {std::string("some words"), whole.substr(0, whole.size() / 2), whole.substr(0, 40),
-        whole + "more",
+        whole + "more", std::string(whole).replace(whole.find("res ") + 4, 3, "inf"),
         // children of children of a voxel
         whole.substr(0, whole.find("data\n") + 5) + std::string(4000, '\xff')}) {
     std::ofstream(folder_ / "damaged.ot", std::ios::binary) << text;
