@@ -84,15 +84,24 @@ Value value_of(const YamlEntry& entry) {
   return value;
 }
 
+bool is_before_keys(const std::string& line) {
+  return line == "---" || line.find_first_of("%#\r\n") == 0;
+}
+
 Calibration of_yaml(const std::string& file, std::string text, const std::string& camera) {
   Calibration out{file, {}};
-  // OpenCV's first line is no directive that YAML knows, and its matrices have a tag
-  if (text.starts_with("%YAML")) text.erase(0, text.find('\n'));
+  // before the keys: OpenCV's first line, which is no directive that YAML knows, comments, a marker
+  std::size_t begin = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  std::size_t lines = 0;
+  for (; begin < text.size() && is_before_keys(text.substr(begin, 3)); ++lines) {
+    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  }
+  text.replace(0, begin, lines, '\n');
+  // OpenCV's matrices have a tag
   const std::string tag = "!!opencv-matrix";
   for (auto at = text.find(tag); at != text.npos; at = text.find(tag)) text.erase(at, tag.size());
   // ROS ends each message that it prints with the line that begins the next
-  const auto begin = std::min(text.find_first_not_of("\xef\xbb\xbf \r\n"), text.size());
-  text.resize(std::min(text.find("\n---", begin + 1), text.size()));
+  text.resize(std::min(text.find("\n---"), text.size()));
   ValidationErrors errors;
   const auto root = parse_document(text, {file, 1, 0}, errors);
   errors.throw_if_any();
@@ -135,9 +144,18 @@ void set_pinhole(double fx, double fy, double cx, double cy, double skew, Camera
   camera.skew_px = skew;
 }
 
+using Names = std::initializer_list<const char*>;
+constexpr Names kMatrixNames = {
+    "camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMatrix", "K", "k", "M1", "M"};
+
 void set_matrix(const Calibration& from, CameraConfig& camera) {
-  const std::vector<double> k = from.numbers(
-      {"camera_matrix", "Camera_Matrix", "cameraMatrix", "CameraMatrix", "K", "k", "M1", "M"}, {9});
+  const std::vector<double> k = from.numbers(kMatrixNames, {9});
+  if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
+    from.fail(from.find(kMatrixNames), *kMatrixNames.begin(),
+              fmt::format("its last row is {} {} {}, and the one above begins with {}; expects "
+                          "fx s cx, 0 fy cy, 0 0 1, row by row",
+                          k[6], k[7], k[8], k[3]));
+  }
   set_pinhole(k[0], k[4], k[2], k[5], k[1], camera);
 }
 
@@ -146,10 +164,8 @@ void set_distortion(Distortion model, const std::vector<double>& listed, CameraC
   DistortionConfig& d = camera.distortion = {};
   d.model = model;
   const bool is_fisheye = model == Distortion::kannala_brandt;
-  const std::array fisheye = {&DistortionConfig::k1, &DistortionConfig::k2, &DistortionConfig::k3,
-                              &DistortionConfig::k4};
   for (std::size_t i = 0; i < listed.size(); ++i) {
-    d.*(is_fisheye ? fisheye[i] : kCoefficients[i].second) = listed[i];
+    d.*kCoefficients[is_fisheye && i > 1 ? i + 2 : i].second = listed[i];  // it has no p1 and p2
   }
   if (std::ranges::all_of(listed, [](double k) { return k == 0.0; }) && !is_fisheye) d = {};
 }
@@ -186,7 +202,6 @@ void set_kalibr(const Calibration& from, CameraConfig& camera) {
                  from.numbers({"distortion_coeffs"}, {4}), camera);
 }
 
-using Names = std::initializer_list<const char*>;
 constexpr Names kCoefficientNames = {"distortion_coefficients",
                                      "Distortion_Coefficients",
                                      "distCoeffs",
@@ -214,6 +229,12 @@ void set_ros(const Calibration& from, const Value& kind, CameraConfig& camera) {
   set_matrix(from, camera);
   set_size(from, {"image_width", "width"}, 0, camera.width_px);
   set_size(from, {"image_height", "height"}, 0, camera.height_px);
+  for (const char* key : {"binning_x", "binning_y"}) {
+    const Value* binning = from.find({key});
+    if (binning == nullptr || binning->text == "0" || binning->text == "1") continue;
+    from.fail(binning, key,
+              fmt::format("'{}' is not read: the matrix is of the image before", binning->text));
+  }
   if (kind.text == "equidistant" || kind.text == "fisheye") {
     set_distortion(Distortion::kannala_brandt, from.numbers(kCoefficientNames, {4}), camera);
   } else if (kind.text == "plumb_bob") {

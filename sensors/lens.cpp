@@ -147,8 +147,10 @@ Lens::Vec2 Lens::decentred(const Vec2& xy) const {
 double Lens::find_argument_max() const {
   constexpr double kLeastSlope = 0.1;
   constexpr int kSteps = 4096;
-  const double most = is_radial() ? distortion_.max_angle_rad : std::tan(distortion_.max_angle_rad);
-  const bool folds = distortion_.model != Distortion::none && !is_panorama();
+  const bool has_model = distortion_.model != Distortion::none;  // else its keys have no effect
+  const double most_rad = (has_model ? distortion_ : DistortionConfig{}).max_angle_rad;
+  const double most = is_radial() ? most_rad : std::tan(most_rad);
+  const bool folds = has_model && !is_panorama();
   for (int i = 1; i <= kSteps && folds; ++i) {
     const double s = most * i / kSteps;
     // off its centre, the lens adds no more than this to either way's slope

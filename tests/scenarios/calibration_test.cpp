@@ -177,6 +177,14 @@ TEST(Calibration, RossMessageAsItPrintsItAndARectifiedCamera) {
               HasSubstr("calib:9: distortion_coefficients: thin prisms and tilted sensors"));
 }
 
+TEST(Calibration, BeginsBehindCommentsAndTheMarkOfADocument) {
+  for (const std::string head :
+       {"# by hand\n---\n", "\xef\xbb\xbf%YAML 1.2\r\n\n# x\n---\n", "---\n#\n"}) {
+    EXPECT_EQ(read(head + kKalibr + "---\ncam0: {}\n").camera.fx_px, 461.6) << head;
+  }
+  EXPECT_THAT(read("#\n---\n" + with(kKalibr, "radtan", "fov")).complaint, HasSubstr("calib:7: "));
+}
+
 TEST(Calibration, KeysBesideItWin) {
   const CameraConfig c = read(kRos, "", ", fx_px: 650, distortion: {k1: 0.05}").camera;
   EXPECT_EQ(c.fx_px, 650.0);
@@ -198,6 +206,10 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
               HasSubstr("holds 6 numbers, expects 4 or 5"));
   EXPECT_THAT(read(with(kOpenCv, "5.3591573396163199e+02,", "-1.,")).complaint,
               HasSubstr("focal lengths -1 and"));
+  EXPECT_THAT(read(with(kOpenCv, "0., 0., 1. ]", "342., 235., 1. ]")).complaint,
+              HasSubstr("calib:7: camera_matrix: its last row is 342 235 1"));
+  EXPECT_THAT(read(kRos + "binning_y: 2\n").complaint,
+              HasSubstr("calib:14: binning_y: '2' is not read"));
   EXPECT_THAT(read("a: [").complaint, HasSubstr("calib:1: "));
   EXPECT_THAT(read("").complaint, HasSubstr("is empty"));
   EXPECT_THAT(read("[1, 2]").complaint, HasSubstr("holds no map of keys"));
@@ -236,6 +248,18 @@ TEST(CameraKeys, OneFieldOfViewAloneMakesSquarePixels) {
   EXPECT_TRUE(repeats(load_text("cameras: [{width_px: 333, height_px: 217, fov_x_deg: 71.3}]\n")));
   EXPECT_THAT(complaint("cameras: [{width_px: 10, height_px: 1000, fov_x_deg: 60}]\n"),
               HasSubstr("square pixels make the other field of view"));
+}
+
+TEST(CameraKeys, TheGreatestAngleIsOfAModelAndWithoutOneHasNoEffect) {
+  for (const std::string keys : {"", "fx_px: 320, cx_px: 300, "}) {
+    for (const std::string model : {"none", "brown_conrady", "kannala_brandt"}) {
+      const std::string distortion = "distortion: {model: " + model + ", max_angle_deg: 20}";
+      const CameraModel camera =
+          make_camera_model(load_text("cameras: [{" + keys + distortion + "}]\n").cameras.at(0));
+      const Vec3 off_m(std::tan(deg_to_rad(-21.0)), 0.0, 1.0);
+      EXPECT_EQ(camera.has_in_image(off_m), model == "none") << keys;
+    }
+  }
 }
 
 TEST(CameraKeys, ALensThatShowsNothingIsRefused) {
