@@ -72,7 +72,11 @@ void check_sensors(const Scenario& s, Problems& out) {
   check_list(s.cameras, "cameras", out);
   check_gimbal(s.cameras, out);
   for (std::size_t i = 0; i < s.cameras.size(); ++i) {
-    check_lens(s.cameras[i], fmt::format("cameras.{}.", i), out);
+    const CameraConfig& camera = s.cameras[i];
+    const std::string key = fmt::format("cameras.{}.", i);
+    check_lens(camera, key, out);
+    if (camera.return_max_m == 0.0) continue;
+    require_below(out, key, "range_min_m", camera.range_min_m, "return_max_m", camera.return_max_m);
   }
   check_list(s.lidars, "lidars", out);
   for (std::size_t i = 0; i < s.lidars.size(); ++i) {

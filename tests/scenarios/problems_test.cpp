@@ -19,6 +19,8 @@ TEST(Problems, AreLaidToTheLineOfTheKeyGivenLast) {
   EXPECT_THAT(complaint(text, {"cameras.0.range_max_m=8.5"}),
               StartsWith("--set cameras.0.range_max_m=8.5: cameras.0.range_max_m: value '8.5': "));
   EXPECT_EQ(complaint(text, {"cameras.0.range_max_m=9.5"}), "");
+  EXPECT_THAT(complaint("cameras:\n  - return_max_m: 0.3\n"),  // range_min_m is 0.3
+              StartsWith("s.yaml:2: cameras.0.return_max_m: value '0.3': "));
   EXPECT_THAT(complaint(kMinimal + "lidars: [{range_max_m: 5}]", {"lidars.0.range_min_m=6"}),
               StartsWith("--set lidars.0.range_min_m=6: lidars.0.range_min_m: value '6': "));
   EXPECT_THAT(complaint("cameras:\n  - {}\n  - {name: b}\n", {"cameras=[{}, {}]"}),
