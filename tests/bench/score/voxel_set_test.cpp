@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 
 #include "bench/score/coverage_curve.hpp"
 #include "bench/score/mission_score.hpp"
@@ -70,25 +69,6 @@ TEST(VoxelSet, NamesThePointThatHasNoVoxel) {
     EXPECT_TRUE(test::says(test::fault_of([&] { voxels_of(points, 0.05); }), {"point 3"})) << bad;
     EXPECT_THROW(voxel_code(points[3], 0.05), BrokenInvariant);
   }
-}
-
-TEST(Coverage, EqualsTheShareCountedWithSets) {
-  const VoxelSet reference = voxels_of(random_points(3000, 5), 0.1);
-  const VoxelSet cloud = voxels_of(random_points(3000, 6), 0.1);
-  const std::set<std::uint64_t> in_cloud(cloud.begin(), cloud.end());
-  std::size_t covered = 0;
-  for (const std::uint64_t voxel : reference) covered += in_cloud.count(voxel);
-  ASSERT_GT(covered, 0U);
-  ASSERT_LT(covered, reference.size());
-  EXPECT_EQ(coverage(reference, cloud),
-            static_cast<double>(covered) / static_cast<double>(reference.size()));
-}
-
-TEST(Coverage, NothingCoversNothing) {
-  const VoxelSet some = voxels_of(random_points(10, 7), 0.1);
-  EXPECT_EQ(coverage(some, {}), 0.0);
-  EXPECT_EQ(coverage({}, some), 0.0);
-  EXPECT_EQ(coverage(some, some), 1.0);
 }
 
 /// A cube of a metre whose faces lie in the middle of voxels of 0.04 m.
