@@ -101,7 +101,9 @@ bool is_noisy(const Scenario& scenario) {
              scenario.cameras,
              [](const CameraConfig& camera) { return camera.noise.model != DepthNoise::none; }) ||
          std::ranges::any_of(scenario.lidars, [&](const LidarConfig& lidar) {
-           return lidar.range_sigma_m > 0.0 && looks_at_views(lidar, !scenario.cameras.empty());
+           const bool is_skewed = lidar.rolling && lidar.looks == LidarLooks::flight;
+           return is_skewed ||
+                  (lidar.range_sigma_m > 0.0 && looks_at_views(lidar, !scenario.cameras.empty()));
          });
 }
 

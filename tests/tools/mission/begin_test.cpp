@@ -133,5 +133,15 @@ TEST(Reference, OfNothingToMeasureIsRefused) {
   EXPECT_FALSE(reference_of(scenario, high, scene, 2).counted[0].empty());
 }
 
+TEST(Reference, ASweepThatTheFlightSkewsIsNoisy) {
+  const auto noisy = [](const std::string& looks, const std::string& rolling) {
+    return is_noisy(
+        load_scenario("smoke", {"lidars.0.looks=" + looks, "lidars.0.rolling=" + rolling}));
+  };
+  EXPECT_TRUE(noisy("flight", "true"));
+  EXPECT_FALSE(noisy("flight", "false"));
+  EXPECT_FALSE(noisy("views", "true"));  // at a view all beams are of one instant
+}
+
 }  // namespace
 }  // namespace gnbv
