@@ -68,6 +68,12 @@ def test_updates_a_run_to_the_very_bytes_that_it_wrote_itself(score, flown, copy
         (copy / 'coverage.csv').write_text('')
 
 
+def test_a_ceiling_of_nothing_is_refused_as_a_mission_is(run):
+    nowhere = 'smoke --quiet --set score.region_m.min=[3,3,3] --set score.region_m.max=[4,4,4]'
+    for command in ('ceiling', 'run'):
+        run(f'{command} {nowhere}', 'smoke: nothing to measure', code=2)
+
+
 def test_the_ceiling_gives_a_run_its_efforts(run, copy, tmp_path):
     def update(more, **environment):
         run(f'score run --update {more}', **environment)

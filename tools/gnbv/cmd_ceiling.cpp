@@ -11,6 +11,7 @@
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
 #include "tools/mission/load_world.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/run_inputs.hpp"
@@ -61,6 +62,8 @@ void ceiling(const CeilingOptions& options) {
   need_inputs_of_run(options.scenario, scenario, world);
   const RayScene scene(world);
   ProgressBar progress(fmt::format("{} ceiling", scenario.name), options.quiet);
+  reference_of(scenario, world, scene, threads,
+               [&](const std::string& note) { progress.show(0.0, note); });
   progress.show(0.0, "where viewpoints are legal");
   const ViewPose start = start_pose(scenario, scene);
   const Ceiling found = find_ceiling(scenario, world, scene, start, threads, [&](double share) {

@@ -23,7 +23,7 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
 /// What the scenario judges mean coverage and efforts over.
 Budgets budgets_of(const ScoreConfig& score);
 
-/// Whether a camera's depths are noisy, or the vehicle's pose is estimated.
+/// Whether what looks measures with noise or is skewed in flight, or the pose is estimated.
 bool is_noisy(const Scenario& scenario);
 
 /// How a ceiling is come by: read when an earlier command left it in the cache, or found anew,
