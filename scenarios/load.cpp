@@ -206,7 +206,7 @@ void set_square_pixels(Scenario& scenario, const SourceLocations& given) {
     CameraConfig& c = scenario.cameras[i];
     const bool has_x = given.contains(fmt::format("cameras.{}.fov_x_deg", i));
     const bool has_y = given.contains(fmt::format("cameras.{}.fov_y_deg", i));
-    if (has_x == has_y) continue;
+    if (has_x == has_y || c.fx_px != 0.0) continue;
     const double shape = static_cast<double>(c.height_px) / c.width_px;
     const auto opening_rad = [](double half_tan) {
       return written_angle_rad(2.0 * std::atan(half_tan));

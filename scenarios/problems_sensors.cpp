@@ -44,17 +44,18 @@ void check_gimbal(const std::vector<CameraConfig>& cameras, Problems& out) {
 /// The optical axis in the image; a model that goes at least that far; no field of view from square
 /// pixels that a file could not hold.
 void check_lens(const CameraConfig& c, const std::string& key, Problems& out) {
-  constexpr double kWidest_rad = deg_to_rad(170.0);
-  const double widest_rad = std::max(c.fov_x_rad, c.fov_y_rad);
-  require(c.fx_px != 0.0 || widest_rad <= kWidest_rad, out,
-          {key + "fov_x_deg", key + "fov_y_deg", key + "width_px", key + "height_px"},
-          "square pixels make the other field of view {:.1f} degrees; at most 170 is allowed",
-          rad_to_deg(widest_rad));
+  constexpr double kLeast_rad = deg_to_rad(1.0);
+  constexpr double kMost_rad = deg_to_rad(170.0);
+  for (const double fov_rad : {c.fov_x_rad, c.fov_y_rad}) {
+    require(fov_rad >= kLeast_rad && fov_rad <= kMost_rad, out,
+            {key + "fov_x_deg", key + "fov_y_deg", key + "width_px", key + "height_px"},
+            "square pixels make the other field of view {:.3g} degrees; 1 to 170 are allowed",
+            rad_to_deg(fov_rad));
+  }
   require(c.cx_px <= c.width_px, out, {key + "cx_px", key + "width_px", key + "calibration"},
           "cx_px = {} lies outside the image, width_px = {}", c.cx_px, c.width_px);
   require(c.cy_px <= c.height_px, out, {key + "cy_px", key + "height_px", key + "calibration"},
           "cy_px = {} lies outside the image, height_px = {}", c.cy_px, c.height_px);
-  constexpr double kLeast_rad = deg_to_rad(1.0);
   if (c.distortion.model == Distortion::none || c.cx_px > c.width_px || c.cy_px > c.height_px)
     return;
   require(

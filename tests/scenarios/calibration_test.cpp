@@ -246,8 +246,11 @@ TEST(CameraKeys, OneFieldOfViewAloneMakesSquarePixels) {
   EXPECT_EQ(load_scenario("aircraft", {"cameras.0.fov_x_deg=90"}).cameras[0].fov_y_rad,
             deg_to_rad(45.0));
   EXPECT_TRUE(repeats(load_text("cameras: [{width_px: 333, height_px: 217, fov_x_deg: 71.3}]\n")));
-  EXPECT_THAT(complaint("cameras: [{width_px: 10, height_px: 1000, fov_x_deg: 60}]\n"),
-              HasSubstr("square pixels make the other field of view"));
+  const std::string tall = "cameras: [{width_px: 10, height_px: 1000, fov_x_deg: 60";
+  for (const std::string& text : {tall + "}]\n", std::string("cameras: [{fov_x_deg: 1}]\n")}) {
+    EXPECT_THAT(complaint(text), HasSubstr("square pixels make the other field of view"));
+  }
+  EXPECT_TRUE(repeats(load_text(tall + ", fx_px: 9}]\n"))) << "where no angle counts";
 }
 
 TEST(CameraKeys, TheGreatestAngleIsOfAModelAndWithoutOneHasNoEffect) {
