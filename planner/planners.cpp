@@ -127,7 +127,6 @@ void set_preset_switches(PlannerConfig& config, std::string_view before) {
   set(fvs.first_bearing_twice, false, true, true);
   set(fvs.keeps_blind, false, false, true);
   set(config.validity.leg_radius_m, 0.0, 0.0, 0.5);
-  if (config.preset == "authors_2018") config.validity.collision_radius_m = 0.8;
   set(fvs.pool_clusters, paper.fvs.pool_clusters, true, false);
   set(fvs.views_per_layer, paper.fvs.views_per_layer, 8, 8);
   set(fvs.radius_m, paper.fvs.radius_m, 3.5, 3.5);

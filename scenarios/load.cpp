@@ -218,8 +218,15 @@ void set_square_pixels(Scenario& scenario, const SourceLocations& given) {
 
 void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
   constexpr double kGazebos_m = 5.0;
+  constexpr double kAuthorsRadius_m = 0.8;
   constexpr double kFrames_hz = 5.0;
   const bool is_takeoff = scenario.planner.preset == kTakeoff;
+  const bool is_authors = scenario.planner.preset == "authors_2018";
+  const auto radius = given.find("planner.validity.collision_radius_m");
+  const auto preset = given.find("planner.preset");
+  if (is_authors && (radius == given.end() || radius->second.rank < preset->second.rank)) {
+    scenario.planner.validity.collision_radius_m = kAuthorsRadius_m;
+  }
   if (is_takeoff && !given.contains("guidance.trajectory")) {
     scenario.guidance.trajectory = Trajectory::smooth;
   }
@@ -229,9 +236,7 @@ void set_preset_flight(Scenario& scenario, const SourceLocations& given) {
     };
     CameraConfig& camera = scenario.cameras[i];
     if (is_takeoff && !is_given("rate_hz")) camera.rate_hz = kFrames_hz;
-    if (scenario.planner.preset == "authors_2018" && !is_given("return_max_m")) {
-      camera.return_max_m = kGazebos_m;
-    }
+    if (is_authors && !is_given("return_max_m")) camera.return_max_m = kGazebos_m;
   }
 }
 

@@ -42,7 +42,8 @@ std::vector<std::string> unused_parameter_notes(const Scenario& scenario,
 
 /// What a planner's preset says of the vehicle, unless the user does: authors_2018, no return
 /// beyond 5 m (paper_code.md, section 1: Gazebo's default); takeoff, frames at 5 Hz and views
-/// passed.
+/// passed. And what authors_2018 keeps free, 0.8 m, over a radius that was given before it: under
+/// another preset the scenario has its own again.
 void set_preset_flight(Scenario& scenario, const SourceLocations& given);
 
 /// A camera with one of its two fields of view given has square pixels.

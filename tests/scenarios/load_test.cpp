@@ -196,6 +196,16 @@ TEST(SensorPresets, LeaveNameAndMountingToTheVehicle) {
   EXPECT_EQ(s.lidars[0].beams, 1081);
 }
 
+TEST(Presets, OfThePlannerLeaveNothingBehindForTheNextOne) {
+  for (const std::string_view before : kPlannerPresets) {
+    const std::string other = fmt::format("planner.preset={}", before);
+    const Scenario back = load_text(kMinimal, {other, "planner.preset=paper"});
+    EXPECT_TRUE(to_yaml(back) == to_yaml(load_text(kMinimal))) << before;
+    const Scenario set = load_text(kMinimal, {"planner.validity.collision_radius_m=2", other});
+    EXPECT_EQ(set.planner.validity.collision_radius_m, before == "authors_2018" ? 0.8 : 2.0);
+  }
+}
+
 TEST(Presets, OfTheSimulationAreTheDefaults) {
   Scenario defaults;
   defaults.cameras.resize(1);
