@@ -49,6 +49,9 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
   if (options.mission.piped_views && options.json && options.command.empty()) {
     throw BadInput("--json: with --views -, stdout belongs to whoever sends views");
   }
+  if (options.mission.rounds_views && !is_user_planner(scenario.planner.utility)) {
+    throw BadInput("--round-views: goes with a planner of yours, --utility FILE.py:FUNCTION");
+  }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
   if (!has_views || scenario.planner.utility.name == kRouteName) return;
   throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
@@ -107,6 +110,15 @@ bool has_ended(const RunOptions& options, const Scenario& scenario) {
   if (!has_extras(mission)) return false;
   need_usable(mission.out, scenario, mission.resume);
   need_unchanged(mission.out, scenario);
+  if (mission.candidates && !RunFiles(mission.out).find(kCandidatesFile)) {
+    throw BadInput(fmt::format("--candidates: {} is finished and did not write them; {} does",
+                               mission.out.string(),
+                               command_to_fly_again(mission.out, "--candidates")));
+  }
+  if (mission.ceiling == CeilingFrom::search && !read_run_figures(mission.out).ceiling) {
+    say("--ceiling: `gnbv score {} --update --ceiling` finds that of a finished run",
+        shell_word(mission.out.string()));
+  }
   const std::string ended = *read_summary(mission.out).termination;
   say("{}: is finished already ({}): nothing to resume", mission.out.string(), ended);
   print_summary(options, scenario, mission.out);
