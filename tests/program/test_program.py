@@ -23,7 +23,8 @@ def test_a_mistyped_word_is_understood(run):
     assert 'subcommand' not in run('rendr', 'did you mean `gnbv render`?', code=2).err
     run('comp', 'did you mean `gnbv compare`?', code=2)
     run('run smoke --utilty bircher', 'did you mean --utility?', code=2)
-    assert 'did you mean' not in run('fly-me-to-the-moon', code=2).err
+    run('bench verfy x.zip', 'did you mean `gnbv bench verify`?', code=2)
+    assert 'did you mean' not in run('fly-me-to-the-moon', 'is no command', code=2).err
     for bad in ('', 'run', 'run smoke --threads none'):
         run(bad, code=2)
 
@@ -64,7 +65,11 @@ REFUSED = {
     'asset aircrft -o out': ['aircrft', "'aircraft'"],
     'asset random --kind crain -o out': ['--kind', "'crain'", "did you mean 'crane'?", 'hull'],
     'asset smoke --seed 2 -o out.obj': ['smoke', 'asset random'],
-    'asset random --seed -1 -o out.obj': ['--seed'],
+    **{f'asset random --seed {seed} -o out': ['--seed', seed]
+       for seed in ('-1', '010', '0x10', '18446744073709551616')},
+    'run smoke --threads 010 --out out': ['--threads', "'010' must be a whole number in decimal digits"],
+    'run smoke --round-views --out out': ['--round-views', 'FILE.py:FUNCTION'],
+    'table smoke --commit abc --out out': ['--commit', '--missions'],
     'asset smoke -o out': ['out', '.obj, .ply or .glb'],
     'asset smoke --list': ['--list'],
     'run smoke --mesh empty.obj --out out': ['empty.obj'],
@@ -76,7 +81,8 @@ REFUSED = {
     "--set 'start.position_m=[2532, -2.8, 1.2]' --out out":
         ['--set', 'workspace_m', '2540', '1000 m'],
     'run smoke --set vehicle.airframe.mass_kg=5 --out out': ['--set', 'mass_kg', 'thrust_max'],
-    'run smoke --seed -1 --out out': ['seed', '-1'],
+    'run smoke --seed -1 --out out': ["--seed -1: seed: value '-1'"],
+    'run smoke --preset papr --out out': ['--preset papr: planner.preset'],
     'run smoke --resume': ['--resume', '--out'],
     'run smoke --out .': ['not empty'],
     'table smoke --out out': ['smoke', 'aircraft'],

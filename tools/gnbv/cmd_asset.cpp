@@ -130,13 +130,8 @@ void add_asset_command(CLI::App& app) {
   CLI::Option* const out = command->add_option(
       "-o,--out", options->out,
       "file to write: .obj (with its .mtl), .ply or .glb; metres, z up (.glb: y up)");
-  const auto is_no_minus = [](const std::string& text) {
-    return text.starts_with('-') ? text + ": is no whole number from 0 to 2^64 - 1" : "";
-  };
-  CLI::Option* const seed =
-      command
-          ->add_option("--seed", options->seed, "of `random`: number of the structure (default: 1)")
-          ->check(is_no_minus);
+  CLI::Option* const seed = command->add_option(
+      "--seed", options->seed, "of `random`: number of the structure (default: 1)");
   CLI::Option* const kind =
       command
           ->add_option("--kind", options->kind,

@@ -135,28 +135,27 @@ void lay_out_help(CLI::App& app) {
 
 std::string meant_instead(const CLI::App& app, std::span<const std::string> words) {
   const auto all = [](const auto*) { return true; };
-  std::vector<std::string_view> commands;
+  std::vector<std::string_view> names;
   for (const CLI::App* const command : app.get_subcommands(all)) {
-    commands.emplace_back(command->get_name());
+    names.emplace_back(command->get_name());
   }
-  const auto is_word = [](const std::string& word) { return !word.starts_with("-"); };
-  const auto first = std::find_if(words.begin(), words.end(), is_word);
-  if (first == words.end()) return "";
-  if (std::count(commands.begin(), commands.end(), *first) == 0) {
-    const auto nearest = nearest_name(*first, commands);
-    return nearest ? fmt::format("did you mean `gnbv {}`?", *nearest) : "";
+  const auto is_name = [&](const std::string& word) { return std::ranges::count(names, word) > 0; };
+  if (!names.empty()) {
+    const auto first = std::ranges::find_if(words, [](auto& word) { return word[0] != '-'; });
+    if (first == words.end()) return "";
+    if (is_name(*first))
+      return meant_instead(*app.get_subcommand(*first), {first + 1, words.end()});
+    const std::string of = app.get_parent() == nullptr ? "gnbv " : "gnbv " + app.get_name() + ' ';
+    const auto nearest = nearest_name(*first, names);
+    if (nearest) return fmt::format("did you mean `{}{}`?", of, *nearest);
+    if (std::ranges::any_of(words, is_name)) return "";  // after the value of an option
+    return fmt::format("'{}' is no command; there are: {}", *first, join(names));
   }
   std::vector<std::string_view> options;
-  const CLI::App* const command = app.get_subcommand(*first);
-  std::vector<const CLI::App*> parts = {command};
-  const auto below = command->get_subcommands(all);
-  parts.insert(parts.end(), below.begin(), below.end());
-  for (const CLI::App* const part : parts) {
-    for (const CLI::Option* const option : part->get_options(all)) {
-      options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
-    }
+  for (const CLI::Option* const option : app.get_options(all)) {
+    options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
   }
-  for (const std::string& word : std::span(first, words.end())) {
+  for (const std::string& word : words) {
     if (!word.starts_with("--")) continue;
     const std::string name = word.substr(2, word.find('=') - 2);
     if (std::count(options.begin(), options.end(), name) > 0) continue;

@@ -19,8 +19,9 @@ std::vector<CLI::App*> parts_of(CLI::App& app);
 /// when all commands have their options.
 void lay_out_help(CLI::App& app);
 
-/// "did you mean `gnbv render`?" for the first of the words (argv without the program) that is no
-/// command, or no option of the command before it, but resembles one; else empty.
+/// Of the first of the words (argv without the program) that is no command, or no part of the
+/// command before it: "did you mean `gnbv render`?" where it resembles one, else that it is none.
+/// Else the same of an option, if it resembles one; else empty.
 std::string meant_instead(const CLI::App& app, std::span<const std::string> words);
 
 }  // namespace gnbv

@@ -50,7 +50,7 @@ int run(int argc, char** argv) {
   gnbv::add_surface_command(app);
   gnbv::add_cache_command(app);
   gnbv::add_doctor_command(app);
-  gnbv::refuse_what_is_not_finite(app);
+  gnbv::refuse_odd_numbers(app);
   gnbv::refuse_empty_values(app);
   gnbv::lay_out_help(app);
   try {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "bench/compare/text_table.hpp"
@@ -22,6 +23,14 @@ CLI::Validator number_check(const std::string& must_be, bool (*is_good)(double))
             return is_number && is_good(value) ? "" : fmt::format("'{}' must be {}", text, must_be);
           },
           must_be};
+}
+
+/// CLI11 takes 010 for 8, and what is below 0 or above 2^64 - 1 for other numbers.
+bool is_decimal(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc{} && end == text.data() + text.size();
+  return is_number && (text[0] != '0' || text.size() == 1);
 }
 
 }  // namespace
@@ -97,11 +106,14 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
                   "percent of coverage at 0.05 m of which shares are taken, instead of the ceiling "
                   "that a search finds: for example what an oracle reached")
       ->check(CLI::Range(1.0, 100.0));
-  command.add_option("--missions", options.missions,
-                     "CSV with one row for each mission. Missions that it holds are not flown "
-                     "again; the others are added");
-  command.add_option("--commit", options.commit,
-                     "commit of this program, written into the rows of --missions");
+  CLI::Option* const missions =
+      command.add_option("--missions", options.missions,
+                         "CSV with one row for each mission. Missions that it holds are not flown "
+                         "again; the others are added");
+  command
+      .add_option("--commit", options.commit,
+                  "commit of this program, written into the rows of --missions")
+      ->needs(missions);
   command.add_option("--format", options.format, "form of the table on stdout")
       ->check(is_one_of({kTableFormats.begin(), kTableFormats.end()}))
       ->capture_default_str();
@@ -117,15 +129,23 @@ void print_bench(const BenchTables& bench, const std::string& format) {
       fmt::format("not every mission came to its end:\n{}", fmt::join(bench.failures, "\n")));
 }
 
-void refuse_what_is_not_finite(CLI::App& app) {
+void refuse_odd_numbers(CLI::App& app) {
   const auto any = [](const auto*) { return true; };
+  const CLI::Validator is_finite =
+      number_check("a finite number", [](double x) { return std::isfinite(x); }).description("");
+  const CLI::Validator is_whole(
+      [](std::string& text) {
+        return is_decimal(text)
+                   ? ""
+                   : fmt::format("'{}' must be a whole number in decimal digits, below 2^64", text);
+      },
+      "");
   for (CLI::App* const command : app.get_subcommands(any)) {
-    refuse_what_is_not_finite(*command);
+    refuse_odd_numbers(*command);
     for (CLI::Option* const option : command->get_options(any)) {
-      if (!option->get_type_name().starts_with("FLOAT")) continue;
-      option->check(number_check("a finite number", [](double x) {
-                      return std::isfinite(x);
-                    }).description(""));
+      const std::string type = option->get_type_name();
+      if (type.starts_with("FLOAT")) option->check(is_finite);
+      if (type.starts_with("INT") || type.starts_with("UINT")) option->check(is_whole);
     }
   }
 }

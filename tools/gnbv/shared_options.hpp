@@ -48,9 +48,10 @@ void add_bench_options(CLI::App& command, BenchOptions& options);
 /// Prints the tables, an empty line between them, then throws CommandFailed if something failed.
 void print_bench(const BenchTables& bench, const std::string& format);
 
-/// No number on the command line of any command may be NaN or infinite: CLI11's ranges let NaN
-/// pass. To be called when all commands have their options.
-void refuse_what_is_not_finite(CLI::App& app);
+/// No number on the command line of any command may be NaN or infinite, which pass CLI11's ranges;
+/// no whole one in octal or hexadecimal digits, or too large. To be called when all commands have
+/// their options.
+void refuse_odd_numbers(CLI::App& app);
 
 /// No option and no argument of a command may be "", as a shell's variable that is not set gives:
 /// it would mean that it was not given. But for titles and further options of sbatch.

@@ -42,8 +42,10 @@ Scenario resolve_scenario(const ScenarioOptions& options, std::vector<std::strin
         {"structure.files=[]", "structure.offset_m=[0,0,0]", "structure.file.path=" + path}));
   }
   if (!options.utility.empty()) add(named_method(options.utility).overrides);
-  if (!options.preset.empty()) add(overrides_of({"planner.preset=" + options.preset}));
-  if (!options.seed.empty()) add(overrides_of({"seed=" + options.seed}));
+  if (!options.preset.empty()) {
+    all.push_back({"planner.preset=" + options.preset, "--preset " + options.preset});
+  }
+  if (!options.seed.empty()) all.push_back({"seed=" + options.seed, "--seed " + options.seed});
   if (!options.views.empty()) add({views_of_file(options.views)});
   add(overrides_of(options.overrides));
   add(overrides);
