@@ -174,8 +174,9 @@ std::optional<YamlNode> parse_override(const std::string& text, const SourceLoca
   }
   std::optional<YamlNode> node = YamlNode{};
   node->location = location;
-  // `key=` gives the key no value, which the reader names
-  if (text.find_first_not_of(" \t\n", equals + 1) != std::string::npos) {
+  // `key=` and `key=#comment` give the key no value, which the reader names
+  const std::size_t value = text.find_first_not_of(" \t\n", equals + 1);
+  if (value != std::string::npos && text[value] != '#') {
     node = parse_document(text.substr(equals + 1), location, errors);
   }
   if (!node) return std::nullopt;

@@ -44,7 +44,7 @@ struct Named {
 enum class FieldKind {
   plain,
   angle,  // radians in the config, degrees in the file
-  word,   // a name that may become part of a file name: letters, digits, '.', '_', '-'
+  word,   // a name that may become part of a file name: kLongestWord letters, digits, '.', '_', '-'
   path    // a relative one begins at the file that names it
 };
 
@@ -70,6 +70,7 @@ using FieldValue =
     std::variant<double*, int*, std::uint64_t*, bool*, std::string*, Vec3*, std::vector<double>*>;
 
 constexpr std::size_t kMostNumbers = 16;
+constexpr std::size_t kLongestWord = 100;  // file systems allow names of 255 bytes
 
 /// A section, a list, or an item of a list.
 struct Group {

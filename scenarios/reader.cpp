@@ -168,6 +168,7 @@ class Reader final : public FieldVisitor {
 
   static std::string hint(const std::string& key, const std::string& above,
                           const std::vector<std::string>& known) {
+    if (key.find('.') != key.npos) return "--set alone joins keys by dots: nest them in the file";
     const std::vector<std::string_view> names(known.begin(), known.end());
     const auto meant = [](const std::string& path) {
       return fmt::format("did you mean '{}'?", path);

@@ -51,7 +51,10 @@ Json schema_of(const Field&, bool) { return {{"type", "boolean"}}; }
 Json schema_of(const Field& field, const std::string&) {
   Json schema = {{"type", "string"}};
   if (!field.choices.empty()) schema["enum"] = field.choices;
-  if (field.kind == FieldKind::word) schema["pattern"] = "^[A-Za-z0-9_][A-Za-z0-9._-]*$";
+  if (field.kind == FieldKind::word) {
+    schema["pattern"] = "^[A-Za-z0-9_][A-Za-z0-9._-]*$";
+    schema["maxLength"] = kLongestWord;
+  }
   return schema;
 }
 Json schema_of(const Field& field, const Vec3&) { return array_schema(field, 3, 3); }

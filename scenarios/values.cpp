@@ -59,8 +59,14 @@ std::string read_one(const YamlNode& node, const Field& field, double& value) {
   if (error != std::errc{} || !std::isfinite(number)) {
     return expected(node, is_plain && is_not_finite(node.text) ? "a finite number" : "a number");
   }
-  if (!contains(field.allowed, number)) return out_of_range(field.allowed);
-  value = field.kind == FieldKind::angle ? deg_to_rad(number) : number;
+  const bool is_angle = field.kind == FieldKind::angle;
+  const double read = is_angle ? deg_to_rad(number) : number;
+  // of an angle also what is written of it: the smallest become 0
+  if (!contains(field.allowed, number) ||
+      (is_angle && !contains(field.allowed, degrees_of(read)))) {
+    return out_of_range(field.allowed);
+  }
+  value = read;
   return "";
 }
 
@@ -110,9 +116,12 @@ std::string read_one(const YamlNode& node, const Field& field, std::string& valu
   } else if (!node.is_quoted && is_not_text(text)) {
     return fmt::format("expects text; to mean the text write \"{}\" with its quotes", text);
   } else if (field.kind == FieldKind::word &&
-             (text.empty() || text[0] == '.' || text[0] == '-' || !is_word(text))) {
-    return "expects a name of letters, digits, '.', '_' and '-' that starts with neither '.' nor "
-           "'-'";
+             (text.empty() || text.size() > kLongestWord || text[0] == '.' || text[0] == '-' ||
+              !is_word(text))) {
+    return fmt::format(
+        "expects a name of up to {} letters, digits, '.', '_' and '-' that starts "
+        "with neither '.' nor '-'",
+        kLongestWord);
   }
   value = text;
   return "";
