@@ -21,6 +21,13 @@ bool knows_structure(const Scenario& s) { return traits_of(s.planner).knows_stru
 bool takes_views(const Scenario& s) { return traits_of(s.planner).takes_views; }
 bool makes_tours(const Scenario& s) { return traits_of(s.planner).makes_tours; }
 bool samples_frontiers(const Scenario& s) { return s.planner.fvs.enabled; }
+bool flies_bursts(const Scenario& s) { return s.planner.fvs.mode == FvsMode::burst; }
+bool has_lidars(const Scenario& s) { return !s.lidars.empty(); }
+bool has_profile(const Scenario& s) { return s.planner.profiling.method != ProfilingMethod::none; }
+bool has_no_profile(const Scenario& s) { return !has_profile(s); }
+bool keeps_lidar_points(const Scenario& s) {
+  return has_profile(s) || s.planner.profiling.flight_rate_hz > 0.0;
+}
 bool may_end_early(const Scenario& s) {
   return !traits_of(s.planner).knows_structure && !takes_views(s);
 }
@@ -48,7 +55,8 @@ void fields(const Keys& key, OccupancyConfig& c) {
 void fields(const Keys& key, CloudConfig& c) {
   constexpr Range kLeaf_m = {0.001, 10};
   key("leaf_m", c.leaf_m, kLeaf_m, "The cloud keeps one point per cube of this edge.");
-  key("profile_leaf_m", c.profile_leaf_m, kLeaf_m, "The same for the points of the profile.");
+  key.only_if(keeps_lidar_points, "planner.profiling.method")(
+      "profile_leaf_m", c.profile_leaf_m, kLeaf_m, "The same for the points of the profile.");
 }
 
 void fields(const Keys& key, ProfilingConfig& c) {
@@ -59,7 +67,8 @@ void fields(const Keys& key, ProfilingConfig& c) {
       "The rough scan before the first view.");
   key.only_if(flies_a_profile, ".method")("scan_in_transit", c.scan_in_transit,
                                           "The LIDAR scans between the descents, too.");
-  key("flight_rate_hz", c.flight_rate_hz, {0, 1e3},
+  key.only_if(has_lidars, "lidars")(
+      "flight_rate_hz", c.flight_rate_hz, {0, 1e3},
       "Sweeps per second of each LIDAR between the views. They show surface to look at, and cover "
       "nothing. 0: none.");
   key.only_if(c.method == saved, ".method")
@@ -107,9 +116,9 @@ void fields(const Keys& key, AgvsConfig& c) {
 void fields(const Keys& key, FrontierConfig& c) {
   key("density_share", c.density_share, {0, 10},
       "A frontier voxel is less dense than this share of a fully scanned plane.");
-  key("occupied_only", c.occupied_only,
-      "A frontier voxel has to be occupied; false: points in it are enough, as in thin parts.");
   const Keys sampled = key.only_if(samples_frontiers, "planner.fvs.enabled");
+  sampled("occupied_only", c.occupied_only,
+          "A frontier voxel has to be occupied; false: points in it are enough, as in thin parts.");
   using enum FrontierLinking;
   sampled("linking", c.linking, {{face, "face"}, {chebyshev, "chebyshev"}, {pcl, "pcl"}},
           "Which voxels join to one cluster. face: those that share a face; chebyshev: those up to "
@@ -318,12 +327,15 @@ void fields(const Keys& key, TourConfig& c) {
             "An observation farther than this from the surface's normal does not count.");
   key("double_cover", c.double_cover,
       "A second observation is worth what the first may miss; false: it is worth nothing.");
-  key("explore", c.explore, "Without a profile: look for unseen space where no surface pays.");
+  key.only_if(has_no_profile, "planner.profiling.method")(
+      "explore", c.explore, "Without a profile: look for unseen space where no surface pays.");
   key("price", c.price, positive(10),
       "What a metre has to bring. 1 is what the mean metre brings of a tour that is twice as long "
       "as the sides of the structure's box together.");
-  key("metres_per_view", c.metres_per_view, {0, 100}, "A view costs as much as this many metres.");
-  key("seconds_per_view", c.seconds_per_view, {0, 100},
+  key.only_if(c.cost == metres, ".cost")("metres_per_view", c.metres_per_view, {0, 100},
+                                         "A view costs as much as this many metres.");
+  key.only_if(c.cost == seconds, ".cost")(
+      "seconds_per_view", c.seconds_per_view, {0, 100},
       "A view costs as much as this many seconds, where seconds count.");
   key("iterations", c.iterations, {0, 1e5}, "Iterations of each search.");
   key("views_per_replan", c.views_per_replan, {1, 1e6},
@@ -356,9 +368,11 @@ void fields(const Keys& key, TerminationConfig& c) {
   by_entropy("repeated_moves", c.repeated_moves, {0, 1e6},
              "The mission ends after this many moves back and forth; 0: never.");
   repeated_by(by_entropy.only_if(c.repeated_moves != 0, ".repeated_moves"), c.repeated_by);
-  key.only_if(scores_views, kUtility)(
-      "within_plans", c.within_plans,
-      "A mission may end within a burst; false: a burst is flown to its end (the authors' code).");
+  key.only_if(scores_views, kUtility)
+      .only_if(samples_frontiers, "planner.fvs.enabled")
+      .only_if(flies_bursts, "planner.fvs.mode")("within_plans", c.within_plans,
+                                                 "A mission may end within a burst; false: a burst "
+                                                 "is flown to its end (the authors' code).");
   papers("max_distance_m", c.max_distance_m, {0, 1e9},
          "The mission ends when the way to the next view would make the planned way longer than "
          "this; 0: no limit.");
@@ -398,6 +412,7 @@ void fields(const Keys& key, PlannerConfig& c) {
       .section("oracle", c.oracle, "What a planner that knows the structure is asked for.");
   key.only_if(makes_tours, kUtility).section("tour", c.tour, "The tour of all that lacks points.");
   key.only_if(would_read_prediction, kUtility)
+      .only_if(has_profile, "planner.profiling.method")
       .only_if(c.utility.gamma > 0.0 || is_user_utility(c.utility.name), "planner.utility.gamma")
       .section("symmetry", c.symmetry, "The mirror image of the profile.");
   key.section("termination", c.termination, "When the mission is over.");

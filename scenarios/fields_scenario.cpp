@@ -3,6 +3,16 @@
 #include "scenarios/fields.hpp"
 
 namespace gnbv {
+namespace {
+
+/// Whether LIDARs see anything: the profile, surface between the views, or what cameras see.
+bool lidars_scan(const Scenario& s) {
+  const auto looks = [&](const LidarConfig& c) { return looks_at_views(c, !s.cameras.empty()); };
+  return flies_a_profile(s) || s.planner.profiling.flight_rate_hz > 0.0 ||
+         std::ranges::any_of(s.lidars, looks);
+}
+
+}  // namespace
 
 void fields(const Keys& key, Box3& c) {
   constexpr Range kCoordinate_m = {-1e4, 1e4};
@@ -125,7 +135,8 @@ void fields(const Keys& key, Scenario& c) {
               "Boxes that the collision sphere keeps out of. No sensor sees them.");
   key.section("score", c.score, "What is scored.");
   papers.list("cameras", c.cameras, {0, 16}, "The depth cameras on the vehicle.");
-  papers.list("lidars", c.lidars, {0, 16}, "The LIDARs on it.");
+  papers.only_if(lidars_scan, "planner.profiling.method")
+      .list("lidars", c.lidars, {0, 16}, "The LIDARs on it.");
   key.section("vehicle", c.vehicle, "What flies.");
   key.section("guidance", c.guidance, "How the vehicle flies from view to view.");
   papers.section("wind", c.wind, "The air that the vehicle flies in.");

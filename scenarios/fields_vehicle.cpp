@@ -278,8 +278,9 @@ void fields(const Keys& key, CameraConfig& c) {
   const Keys of_angles = key.only_if(c.fx_px == 0.0, ".fx_px");
   of_angles.angle("fov_x_deg", c.fov_x_rad, {1, 170},
                   "Horizontal field of view; given alone, pixels are square.");
-  of_angles.angle("fov_y_deg", c.fov_y_rad, {1, 170},
-                  "Vertical field of view; given alone, pixels are square.");
+  of_angles.only_if(c.fy_px == 0.0, ".fy_px")
+      .angle("fov_y_deg", c.fov_y_rad, {1, 170},
+             "Vertical field of view; given alone, pixels are square.");
   key("fx_px", c.fx_px, {0, 1e6},
       "Focal length along a row; 0: it follows from the field of view.");
   key("fy_px", c.fy_px, {0, 1e6}, "Focal length along a column; 0: as fx_px.");

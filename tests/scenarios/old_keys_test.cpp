@@ -161,6 +161,18 @@ TEST(UnusedParameterNotes, AreOfAllThatTheUtilityAndTheBatteryDoNotRead) {
            {"vehicle: {power: {battery_wh: 9, reserve_share: 0.3}}",
             "vehicle.power.reserve_share (s.yaml:2) has no effect: vehicle.power.return_home is "
             "false"},
+           {"planner: {profiling: {method: none}, cloud: {profile_leaf_m: 0.3}}",
+            "planner.cloud.profile_leaf_m (s.yaml:2) has no effect: planner.profiling.method is "
+            "none"},
+           {"planner: {profiling: {method: none}}\nlidars: [{range_max_m: 2}]",
+            "lidars.0.range_max_m (s.yaml:3) has no effect: planner.profiling.method is none"},
+           {"planner: {profiling: {method: none, flight_rate_hz: 5}}\nlidars: []",
+            "planner.profiling.flight_rate_hz (s.yaml:2) has no effect: lidars is empty"},
+           {"planner: {utility: {name: tour}, tour: {seconds_per_view: 30}}",
+            "planner.tour.seconds_per_view (s.yaml:2) has no effect: planner.tour.cost is metres"},
+           {"planner: {fvs: {mode: single}, termination: {within_plans: false}}",
+            "planner.termination.within_plans (s.yaml:2) has no effect: planner.fvs.mode is "
+            "single"},
            {"vehicle: {estimate: {outage_drift_m_per_sqrt_s: 2}}",
             "vehicle.estimate.outage_drift_m_per_sqrt_s (s.yaml:2) has no effect: "
             "vehicle.estimate.outages is empty"}}) {
