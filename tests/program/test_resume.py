@@ -88,8 +88,6 @@ def test_a_finished_run_stays_as_it_is(run, copy_of, whole):
     left = copy_of(*SMOKE)
     written = (left / 'summary.json').stat().st_mtime_ns
     run(RESUME, 'is finished already (max_iterations): nothing to resume')
-    run(f'{RESUME} --ceiling', 'gnbv score run --update --ceiling')
-    run(f'{RESUME} --candidates', '--candidates: run is finished and did not write them', code=2)
     assert not difference(left, whole(*SMOKE).path)
     assert (left / 'summary.json').stat().st_mtime_ns == written
     (left / 'cloud.ply').unlink()  # what is missing is made again

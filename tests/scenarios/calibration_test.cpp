@@ -220,8 +220,6 @@ TEST(Calibration, WhatCannotBeReadIsNamedWithFileLineAndKey) {
 
 TEST(Calibration, ItsValuesAreInTheRangesOfTheKeysAndAtFaultItself) {
   for (const auto& [was, is, words] : std::vector<std::array<const char*, 3>>{
-           {"360.4, 0, 0, 1]", "0, 640.2, 360.4, 1]",
-            "has to read [fx, skew, cx, 0, fy, cy, 0, 0, 1]"},
            {"640.2", "-10", "calib: cx_px: value '-9.5': is out of range"},
            {"700.1", "2e6", "calib: fx_px"},
            {"0.1, 0.2", "0.1, -2e6", "calib: distortion.k2"},

@@ -110,15 +110,6 @@ bool has_ended(const RunOptions& options, const Scenario& scenario) {
   if (!has_extras(mission)) return false;
   need_usable(mission.out, scenario, mission.resume);
   need_unchanged(mission.out, scenario);
-  if (mission.candidates && !RunFiles(mission.out).find(kCandidatesFile)) {
-    throw BadInput(fmt::format("--candidates: {} is finished and did not write them; {} does",
-                               mission.out.string(),
-                               command_to_fly_again(mission.out, "--candidates")));
-  }
-  if (mission.ceiling == CeilingFrom::search && !read_run_figures(mission.out).ceiling) {
-    say("--ceiling: `gnbv score {} --update --ceiling` finds that of a finished run",
-        shell_word(mission.out.string()));
-  }
   const std::string ended = *read_summary(mission.out).termination;
   say("{}: is finished already ({}): nothing to resume", mission.out.string(), ended);
   print_summary(options, scenario, mission.out);
