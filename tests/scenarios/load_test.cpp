@@ -122,12 +122,6 @@ TEST(VehiclePreset, HoldsWhereTheKeysBesideItSayNothingElse) {
   EXPECT_EQ(load_text(kMinimal, {"vehicle.preset=f450"}).vehicle.airframe.mass_kg, 1.9);
 }
 
-TEST(Overrides, ApplyInOrderTheLastOneWins) {
-  const Scenario s = load_text("seed: 3\n" + kMinimal, {"seed=4", "name=a", "seed=5"});
-  EXPECT_EQ(s.seed, 5U);
-  EXPECT_EQ(s.name, "a");
-}
-
 TEST(Overrides, ReachItemsOfListsAndNumbersOfVectors) {
   const Scenario s = load_scenario("aircraft", {"cameras.1.range_max_m=6", "workspace_m.max.2=15",
                                                 "vehicle.airframe.rotors.3.p_body_m.0=-0.2"});

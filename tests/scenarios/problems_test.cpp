@@ -161,11 +161,5 @@ TEST(ClearingNote, IsOfCamerasWhoseReturnsEndBeforeWhatTheyClear) {
                   .ends_with("rgbd_down from 5 to 8 m, rgbd_up from 5 to 8 m"));
 }
 
-TEST(Problems, OfABuiltinScenarioAreNone) {
-  for (const std::string& name : builtin_scenario_names()) {
-    EXPECT_TRUE(problems(load_scenario(name, {})).empty()) << name;
-  }
-}
-
 }  // namespace
 }  // namespace gnbv

@@ -33,6 +33,18 @@ bool is_decimal(std::string_view text) {
   return is_number && (text[0] != '0' || text.size() == 1);
 }
 
+/// Of all commands and their parts.
+std::vector<CLI::Option*> options_of_all(CLI::App& app) {
+  const auto any = [](const auto*) { return true; };
+  std::vector<CLI::Option*> options;
+  for (CLI::App* const command : app.get_subcommands(any)) {
+    for (const auto& more : {command->get_options(any), options_of_all(*command)}) {
+      options.insert(options.end(), more.begin(), more.end());
+    }
+  }
+  return options;
+}
+
 }  // namespace
 
 void add_bounds_option(CLI::App& command, ScenarioOptions& options) {
@@ -130,7 +142,6 @@ void print_bench(const BenchTables& bench, const std::string& format) {
 }
 
 void refuse_odd_numbers(CLI::App& app) {
-  const auto any = [](const auto*) { return true; };
   const CLI::Validator is_finite =
       number_check("a finite number", [](double x) { return std::isfinite(x); }).description("");
   const CLI::Validator is_whole(
@@ -140,28 +151,21 @@ void refuse_odd_numbers(CLI::App& app) {
                    : fmt::format("'{}' must be a whole number in decimal digits, below 2^64", text);
       },
       "");
-  for (CLI::App* const command : app.get_subcommands(any)) {
-    refuse_odd_numbers(*command);
-    for (CLI::Option* const option : command->get_options(any)) {
-      const std::string type = option->get_type_name();
-      if (type.starts_with("FLOAT")) option->check(is_finite);
-      if (type.starts_with("INT") || type.starts_with("UINT")) option->check(is_whole);
-    }
+  for (CLI::Option* const option : options_of_all(app)) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("FLOAT")) option->check(is_finite);
+    if (type.starts_with("INT") || type.starts_with("UINT")) option->check(is_whole);
   }
 }
 
 void refuse_empty_values(CLI::App& app) {
-  const auto any = [](const auto*) { return true; };
   const CLI::Validator is_something(
       [](std::string& text) { return std::string(text.empty() ? "is empty" : ""); }, "");
-  for (CLI::App* const command : app.get_subcommands(any)) {
-    refuse_empty_values(*command);
-    for (CLI::Option* const option : command->get_options(any)) {
-      const bool takes_a_value = option->get_items_expected_max() > 0;
-      const std::string name = option->get_name();
-      const bool may_be_empty = name == "--title" || name == "--slurm-args";
-      if (takes_a_value && !may_be_empty) option->check(is_something);
-    }
+  for (CLI::Option* const option : options_of_all(app)) {
+    const bool takes_a_value = option->get_items_expected_max() > 0;
+    const std::string name = option->get_name();
+    const bool may_be_empty = name == "--title" || name == "--slurm-args";
+    if (takes_a_value && !may_be_empty) option->check(is_something);
   }
 }
 
