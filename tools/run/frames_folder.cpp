@@ -140,6 +140,11 @@ AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file
                              camera.height_px, camera.name));
 }
 
+std::string none_kept(const fs::path& run) {
+  return fmt::format("{}: no frames were kept; {} keeps them", (run / kFramesFolder).string(),
+                     command_to_fly_again(run, "--frames"));
+}
+
 }  // namespace
 
 std::string frame_stem(std::size_t iteration, const std::string& camera) {
@@ -184,12 +189,12 @@ std::string why_no_frames(const RunRecord& record) {
   if (fs::exists(folder)) {
     return fmt::format("{}: there are no frames: none was taken", folder.string());
   }
-  return fmt::format("{}: no frames were kept; {} keeps them", folder.string(),
-                     command_to_fly_again(record.folder, "--frames"));
+  return none_kept(record.folder);
 }
 
 FrameRecord read_frames(const fs::path& run) {
   const fs::path folder = run / kFramesFolder;
+  if (!fs::exists(folder)) throw BadInput(none_kept(run));
   const std::string again = command_to_fly_again(run, "--frames");
   const fs::path poses = folder / kPosesFile;
   for (const fs::path& file : {poses, folder / kCamerasFile}) {

@@ -241,7 +241,7 @@ class _Header:
 
     def _share(self, artist: Any) -> float:
         """Of the figure's width."""
-        return artist.get_window_extent(self.renderer).width / self.canvas.bbox.width
+        return float(artist.get_window_extent(self.renderer).width / self.canvas.bbox.width)
 
     def _broken(self, text: str, most: float) -> str:
         """Into lines none of which is wider than that share of the figure."""
