@@ -20,6 +20,9 @@ ROUTE = ('planner.routes.views=[{position_m: [0, 5, 2]}, {position_m: [3.2, 0, 2
 GIMBAL = 'cameras.0.pitch_deg={min: 0, max: 60, step: 30}'
 NO_FLY = 'no_fly=[{min: [2.6, -0.8, 0], max: [4.5, 0.8, 3]}]'
 SCREEN = 'obstacles=[{box_m: {min: [-0.5, -1.6, 0], max: [0.5, -1.5, 1.6]}}]'
+# from few positions little is seen: a short search
+FEW_PLACES = ['cameras.0.width_px=64', 'cameras.0.height_px=48', 'cameras.0.fov_x_deg=90',
+              'cameras.0.range_max_m=2', 'planner.validity.collision_radius_m=1']
 BURSTS = ['planner.fvs.mode=burst', 'planner.fvs.entropy_threshold_nat=1']
 MISSIONS = {
     'proposed': [],
@@ -32,9 +35,10 @@ MISSIONS = {
     'tour': ['planner.utility.name=tour'],
     'tour of a gimbal': ['planner.utility.name=tour', 'cameras.0.drop_probability=0.3', GIMBAL,
                          'wind.mean_m_s=[2, 1, 0]', NO_FLY, SCREEN],
-    'oracle of views': ['planner.utility.name=oracle_views'],
-    'oracle of metres': ['planner.utility.name=oracle_metres'],
-    'oracle of seconds': ['planner.utility.name=oracle_seconds', 'planner.oracle.coverage=0.9'],
+    'oracle of views': ['planner.utility.name=oracle_views', *FEW_PLACES],
+    'oracle of metres': ['planner.utility.name=oracle_metres', *FEW_PLACES],
+    'oracle of seconds': ['planner.utility.name=oracle_seconds', 'planner.oracle.coverage=0.9',
+                          *FEW_PLACES],
     'route': ['planner.utility.name=route', ROUTE],
     'gimbal': [GIMBAL],
     'no-fly box and screen': [NO_FLY, SCREEN],

@@ -63,11 +63,11 @@ class End:
 
 
 class Gnbv:
-    """The program in a folder, without a cache."""
+    """The program in a folder, without a cache unless one is given."""
 
     def __init__(self, path, folder, before=(), **environment):
         self.path, self.folder, self.before = str(path), folder, list(before)
-        self.environment = {**os.environ, 'GNBV_CACHE': '', **environment}
+        self.environment = {'GNBV_CACHE': '', **os.environ, **environment}
 
     def start(self, *words, **more):
         files = tempfile.TemporaryFile(), tempfile.TemporaryFile()  # a pipe could outlive it
