@@ -26,7 +26,6 @@
 #include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/run/user_views.hpp"
-#include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/progress.hpp"
 #include "tools/terminal/say.hpp"
 
@@ -214,7 +213,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   show_progress(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(
       scenario, world, scene, threads, [&](const std::string& note) { show_progress(0.0, note); });
-  const InterruptGuard interrupt;
+  auto interrupt = std::make_unique<const InterruptGuard>();
   const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
   auto route = known_route(scenario, world, scene, reference, show_progress, should_stop, threads);
   RunDirectory directory(claim.folder(), scenario, options.resume);
@@ -266,7 +265,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
                            : planner ? planner->repeatable(result.termination)
                                      : scenario;
     directory.finish(flown, result, score, watch.elapsed_s());
-    return {directory.path(), std::move(result), score, watch.elapsed_s()};
+    return {directory.path(), std::move(result), score, watch.elapsed_s(), std::move(interrupt)};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),
                                       shell_word((directory.path() / kScenarioFile).string())));

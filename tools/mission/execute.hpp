@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "bench/score/mission_score.hpp"
@@ -10,6 +11,7 @@
 #include "tools/mission/reference.hpp"
 #include "tools/mission/user_planner.hpp"
 #include "tools/run/mission_result.hpp"
+#include "tools/terminal/interrupt.hpp"
 
 namespace gnbv {
 
@@ -44,6 +46,7 @@ struct ExecutedMission {
   MissionResult result;
   MissionScore score;
   double total_wall_s = 0.0;
+  std::unique_ptr<const InterruptGuard> interrupt;  // it is all there: Ctrl-C loses no word of it
 };
 
 /// Checks everything that can be wrong with the input, flies the mission, scores it and writes the
