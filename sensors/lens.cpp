@@ -106,7 +106,8 @@ double Lens::unit_m3() const {
   }
   constexpr int kRings = 128;
   constexpr int kBearings = 256;
-  const double step_rad = std::atan(radius_max_) / kRings;
+  const Vec2 corner = sight_.min().cwiseAbs().cwiseMax(sight_.max().cwiseAbs());
+  const double step_rad = std::atan(std::min(radius_max_, corner.norm())) / kRings;
   double sum = 0.0;
   for (int i = 0; i < kRings * kBearings; ++i) {
     const double off_rad = (i / kBearings + 0.5) * step_rad;

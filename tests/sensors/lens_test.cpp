@@ -118,6 +118,11 @@ TEST(LensCamera, ALensThatDoesNothingIsThePinhole) {
   EXPECT_LT((plain.sight.max() - lensed.sight.max()).norm(), 1e-12);
   EXPECT_LT((plain.sight.min() - lensed.sight.min()).norm(), 1e-12);
   EXPECT_NEAR(frustum_m3(plain.config), frustum_m3(lensed.config), 0.02 * frustum_m3(plain.config));
+  for (const double fx_px : {100.0, 700.0, 5000.0}) {  // ever narrower: a pyramid on its tip
+    const CameraConfig narrow = camera_of({Distortion::brown_conrady}, fx_px).config;
+    const double pyramid_m3 = 90.0 * 70.0 / (3.0 * fx_px * fx_px) * std::pow(narrow.range_max_m, 3);
+    EXPECT_NEAR(frustum_m3(narrow) / pyramid_m3, 1.0, 0.02) << fx_px;
+  }
   TriangleMesh wall;
   add_wall(wall, 5.0, -3, 3, -3, 3);
   const RayScene scene(world_of(wall, true));
