@@ -223,6 +223,24 @@ def results(gnbv, *words, code=0, **environment):
     return end.stdout + end.stderr
 
 
+@pytest.mark.skipif(not (REPOSITORY / '.git').exists(), reason='no clone')
+def test_held_out_structures_are_drawn_from_all_digits_of_a_commit_and_say_it(gnbv, tmp_path):
+    stub, rows = tmp_path / 'stub', tmp_path / 'to/missions/held-out.csv'
+    stub.write_text(f'#!/bin/sh\necho "$@" | tee -a {tmp_path}/calls\n')  # gnbv itself flies for long
+    stub.chmod(0o755)
+    rows.parent.mkdir(parents=True)
+    write_rows(rows, [{'commit': 'c'}])
+    words = ['--only', 'held-out', '--out', 'out', '--to', 'to', '--held-out']
+    results(gnbv, *words, 'HEAD', GNBV=str(stub))
+    drawn_from = re.findall(r'--drawn-from (\S+) --draw', (tmp_path / 'calls').read_text())
+    assert len(drawn_from) == 24 and re.fullmatch('[0-9a-f]{40}', drawn_from[0])
+    assert {*drawn_from, *re.findall(r'--held-out (\S+) -->', (tmp_path / 'to/held-out.md').read_text())
+            } == {drawn_from[0]}
+    (tmp_path / 'calls').unlink()
+    results(gnbv, *words, 'moon', code=2, GNBV=str(stub))
+    assert not (tmp_path / 'calls').exists()
+
+
 def test_one_command_flies_prints_and_says_what_is_stale(gnbv, tmp_path):
     there = ['--seeds', 1, '--set', 'planner.termination.max_iterations=2', *SMALL.split(),
              '--out', 'out', '--to', 'to', '--only', 'lab_model', '--only', 'a340']
