@@ -101,6 +101,7 @@ void verify_entry(const BenchSuiteOptions& options) {
 
 void print_standings(const BenchSuiteOptions& options) {
   const std::vector<Submission> entries = entries_of(options);
+  for (const Submission& entry : entries) need_flyable(entry, suite_of(options));
   bool is_first = true;
   for (const TextTable& table : standings_tables(suite_of(options), entries)) {
     fmt::print("{}{}", is_first ? "" : "\n",

@@ -56,6 +56,29 @@ std::vector<std::string> keys_beyond(const Scenario& task, const Scenario& entry
   return keys;
 }
 
+/// Throws BadInput where settings or the name stand for another planner than is entered.
+void need_one_planner(const EntryPlanner& planner, const SuiteTask& task,
+                      TaskScenarios& scenarios) {
+  const bool is_own = planner.asks.empty() && !planner.settings.empty();  // others give views
+  const auto planner_by = [&](std::size_t settings) {
+    const auto begin = planner.settings.begin();
+    return scenarios.of(task, {begin, begin + std::ptrdiff_t(settings)}).planner.utility.name;
+  };
+  const std::string entered = planner_by(is_own ? 1 : 0);
+  const std::string flown = planner_by(planner.settings.size());
+  if (flown != entered) {
+    throw BadInput(
+        fmt::format("settings: planner.utility.name: value '{}': names another planner than the "
+                    "one that is entered",
+                    flown));
+  }
+  if (is_own && planner.name != entered && std::ranges::count(planner_names(), planner.name) > 0) {
+    throw BadInput(
+        fmt::format("name: value '{}': is another planner of gnbv's than {}, which flies",
+                    planner.name, entered));
+  }
+}
+
 }  // namespace
 
 EntryPlanner entry_planner(const std::string& text, const std::vector<std::string>& settings,
@@ -215,6 +238,7 @@ std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask
           "name: value '{}': of {}, which knows the mesh: the name has to begin with that",
           planner.name, utility));
     }
+    if (cells.empty()) need_one_planner(planner, task, scenarios);
     const std::string id = namer.id_of(scenario);
     cells.push_back({task.structure, planner.name, scenario.seed, id, std::move(scenario)});
   }

@@ -57,7 +57,8 @@ std::vector<SuiteTask> asked_tasks(const Suite& suite, const std::string& track,
                                    const std::vector<std::string>& only);
 
 /// The missions of an entry, task by task. Throws BadInput when a mesh is another than was frozen,
-/// and for settings that name code, or an oracle by whose name the entry's does not begin.
+/// and for settings that name code, another planner than is entered, or an oracle by whose name the
+/// entry's does not begin.
 std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask>& tasks,
                                  const EntryPlanner& planner, TaskScenarios& scenarios);
 

@@ -41,6 +41,9 @@ std::vector<std::string> verify_submission(const Submission& submission, const S
                                            const SuiteFlights& flights,
                                            std::vector<std::filesystem::path>* runs = nullptr);
 
+/// Throws BadInput for what verify_submission() would refuse before it flies.
+void need_flyable(const Submission& submission, const Suite& suite);
+
 /// Fills in what tasks of a track lack: workspace and start of random structures, hashes of meshes,
 /// ceilings, and the best of the planners. The file is written by rename after each task, and what
 /// is frozen stays. Missions lie in FOLDER and are not flown again.

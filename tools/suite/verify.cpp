@@ -152,17 +152,32 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
   return differences;
 }
 
+/// BadInput names the file of what lies in others meanwhile.
+auto naming_file(const Submission& submission, const auto& does) {
+  try {
+    return does();
+  } catch (const BadInput& error) {
+    const std::string file = submission.file.string(), what = error.what();
+    throw BadInput(what.starts_with(file) ? what : fmt::format("{}: {}", file, what));
+  }
+}
+
 }  // namespace
+
+void need_flyable(const Submission& submission, const Suite& suite) {
+  naming_file(submission, [&] {
+    need_of_suite(submission, suite);
+    const ScratchFolder scratch;
+    TaskScenarios scenarios(suite, scratch.path());
+    const SuiteTask first = suite.tasks_of(submission.track).front();
+    prepare(submission, suite, first, scratch.path(), scenarios);
+  });
+}
 
 std::vector<std::string> verify_submission(const Submission& submission, const Suite& suite,
                                            const fs::path& folder, const SuiteFlights& flights,
                                            std::vector<fs::path>* runs) {
-  try {
-    return verify(submission, suite, folder, flights, runs);
-  } catch (const BadInput& error) {  // of what it holds, which lies in other files meanwhile
-    const std::string file = submission.file.string(), what = error.what();
-    throw BadInput(what.starts_with(file) ? what : fmt::format("{}: {}", file, what));
-  }
+  return naming_file(submission, [&] { return verify(submission, suite, folder, flights, runs); });
 }
 
 }  // namespace gnbv
