@@ -43,6 +43,7 @@ bool step_on(UploadedMission& mission, AutoFlight& flight, const Vec3& p_world_m
   const bool is_level = std::abs(left_m.z()) < kAltitudeArrival_m;
   switch (mission.phase) {
     case Phase::begins:
+    case Phase::waits:
       return false;
     case Phase::climbs:
       if (!is_level) return false;
@@ -57,7 +58,10 @@ bool step_on(UploadedMission& mission, AutoFlight& flight, const Vec3& p_world_m
       return false;
     case Phase::holds:
       mission.held_s += dt_s;
-      return mission.held_s >= step.hold_s;
+      if (mission.held_s < step.hold_s || !step.waits) return mission.held_s >= step.hold_s;
+      mission.reached.push_back(static_cast<std::uint16_t>(mission.current));
+      mission.phase = Phase::waits;
+      return false;
     case Phase::lands:
       return is_landed;
   }

@@ -17,13 +17,14 @@ struct MissionStep {
   bool is_above_home = false;                       // z counts from home
   double yaw_rad = kNotControlled;                  // NaN: towards the place
   double hold_s = 0.0;                              // stays this long, or for ever
+  bool waits = false;                               // and then until it is told to go on
   double acceptance_m = 2.0;                        // reached: nearer than this, seen from above
   double speed_m_s = 0.0;                           // of `speed`, from then on; 0: the cruise speed
 };
 
 /// Waypoints of a vehicle that stands on the ground begin with a climb to MIS_TAKEOFF_ALT.
 struct UploadedMission {
-  enum class Phase : std::uint8_t { begins, climbs, goes, holds, lands };
+  enum class Phase : std::uint8_t { begins, climbs, goes, holds, waits, lands };
   std::vector<MissionStep> steps;
   std::size_t current = 0;
   Phase phase = Phase::begins;

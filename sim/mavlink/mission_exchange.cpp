@@ -189,9 +189,13 @@ MissionExchange::Answer MissionExchange::receive(const MissionItemInt& item,
   upload_->heard_s = context.now_s;
   upload_->items.push_back(item);
   upload_->steps.push_back(std::get<MissionStep>(read));
+  upload_->steps.back().waits = item.autocontinue == 0;
   if (upload_->items.size() < upload_->count) return request_next(context.now_s);
   context.aboard.mission = std::move(upload_->items);
   context.px4.set_mission(std::move(upload_->steps));
+  for (const MissionItemInt& sent : context.aboard.mission) {
+    if (sent.current != 0) context.px4.set_current_step(sent.seq);
+  }
   upload_.reset();
   return acknowledge(MissionResult::accepted, kFlightPlan, context);
 }

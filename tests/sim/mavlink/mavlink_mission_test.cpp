@@ -27,7 +27,8 @@ MissionItemInt item_at(std::uint16_t command, const Vec3& p_world_m, float hold_
           .y = place.lon_deg_e7,
           .z = static_cast<float>(p_world_m.z()),
           .command = command,
-          .frame = 6};
+          .frame = 6,
+          .autocontinue = 1};
 }
 
 using Items = std::vector<MissionItemInt>;
@@ -247,6 +248,24 @@ TEST(MavlinkMission, PausesInHoldAndGoesOnFromTheItemThatIsCurrent) {
   session.step_for(20);
   EXPECT_LT((session.vehicle().state().T_world_body.translation() - Vec3(20, 20, 3)).norm(), 0.3);
   EXPECT_EQ(session.vehicle().px4().nav_state(), NavState::hold) << "and then it holds";
+}
+
+TEST(MavlinkMission, BeginsAtTheItemMarkedCurrentAndWaitsAtOneThatDoesNotContinue) {
+  Session session;
+  Items items = {item_at(kTakeoff, {0, 0, 3}), item_at(kWaypoint, {20, 0, 3}),
+                 item_at(kWaypoint, {0, 5, 3}), item_at(kWaypoint, {0, 10, 3})};
+  items[2].current = 1;
+  items[2].autocontinue = 0;
+  ASSERT_EQ(upload(session, items), kAccepted);
+  ASSERT_EQ(session.result_of(kMissionStart, -1), 0);
+  for (std::uint16_t item = 2; item <= 3; ++item) {
+    if (item == 3) session.send(MissionSetCurrent{item, 1, 1});
+    session.step_for(25);
+    const Vec3 p_m = session.vehicle().state().T_world_body.translation();
+    EXPECT_LT((p_m - Vec3(0, 5.0 * (item - 1), 3)).norm(), 0.3);
+    EXPECT_EQ(session.last<MissionItemReached>().seq, item);
+    EXPECT_EQ(session.count<MissionItemReached>(), item - 1U);
+  }
 }
 
 World level_ground(float z_m) {
