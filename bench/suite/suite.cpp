@@ -272,19 +272,15 @@ std::string suite_yaml(const Suite& suite) {
   return yaml;
 }
 
-Suite only_track(const Suite& suite, std::string_view track) {
+std::string track_sha256(const Suite& suite, std::string_view track) {
   Suite own = suite;
   own.tracks = {suite.track(track)};
   own.tasks = suite.tasks_of(track);
   std::erase_if(own.structures, [&](const SuiteStructure& structure) {
     return std::ranges::count(own.tasks, structure.name, &SuiteTask::structure) == 0;
   });
-  return own;
-}
-
-std::string track_sha256(const Suite& suite, std::string_view track) {
   Sha256 hash;
-  hash.add(suite_yaml(only_track(suite, track)));
+  hash.add(suite_yaml(own));
   return hash.hex();
 }
 

@@ -75,8 +75,7 @@ std::string_view builtin_suite();
 /// The text that read_suite() reads as the same.
 std::string suite_yaml(const Suite& suite);
 
-/// The suite with one track alone, and the SHA-256 of its text: what a result is a result of.
-Suite only_track(const Suite& suite, std::string_view track);
+/// SHA-256 of the text of the suite with this track alone: what a result is a result of.
 std::string track_sha256(const Suite& suite, std::string_view track);
 
 }  // namespace gnbv

@@ -236,9 +236,7 @@ def test_held_out_structures_are_drawn_from_all_digits_of_a_commit_and_say_it(gn
     assert len(drawn_from) == 24 and re.fullmatch('[0-9a-f]{40}', drawn_from[0])
     assert {*drawn_from, *re.findall(r'--held-out (\S+) -->', (tmp_path / 'to/held-out.md').read_text())
             } == {drawn_from[0]}
-    (tmp_path / 'calls').unlink()
-    results(gnbv, *words, 'moon', code=2, GNBV=str(stub))
-    assert not (tmp_path / 'calls').exists()
+    results(gnbv, *words, 'moon', code=2)
 
 
 def test_one_command_flies_prints_and_says_what_is_stale(gnbv, tmp_path):

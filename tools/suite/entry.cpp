@@ -60,12 +60,10 @@ std::vector<std::string> keys_beyond(const Scenario& task, const Scenario& entry
 void need_one_planner(const EntryPlanner& planner, const SuiteTask& task,
                       TaskScenarios& scenarios) {
   const bool is_own = planner.asks.empty() && !planner.settings.empty();  // others give views
-  const auto planner_by = [&](std::size_t settings) {
-    const auto begin = planner.settings.begin();
-    return scenarios.of(task, {begin, begin + std::ptrdiff_t(settings)}).planner.utility.name;
-  };
-  const std::string entered = planner_by(is_own ? 1 : 0);
-  const std::string flown = planner_by(planner.settings.size());
+  const auto begin = planner.settings.begin();
+  const std::vector<Override> first(begin, is_own ? begin + 1 : begin);
+  const std::string entered = scenarios.of(task, first).planner.utility.name;
+  const std::string flown = scenarios.of(task, planner.settings).planner.utility.name;
   if (flown != entered) {
     throw BadInput(
         fmt::format("settings: planner.utility.name: value '{}': names another planner than the "
