@@ -139,9 +139,11 @@ def test_a_run_that_is_there_is_kept(run, tmp_path, copy_of):
 
 def test_a_mission_that_ends_before_it_explored_says_why(run, tmp_path):
     # in a corner, looking away, and without frontier views
-    run("run smoke --quiet --set 'start={position_m: [0, -3.9, 4.5], yaw_deg: -90, "
-        "jitter_m: [0, 0, 0]}' --set planner.fvs.enabled=false --set planner.agvs.scales=false "
-        '--set planner.profiling.method=none --out out',
+    away = ("run smoke --quiet --set 'start={position_m: [0, -3.9, 4.5], yaw_deg: -90, "
+            "jitter_m: [0, 0, 0]}' --out ")
+    run(f'{away}tour --utility tour --preset takeoff', 'no view pays', 'planner.tour.explore: true')
+    run(f'{away}out --set planner.fvs.enabled=false --set planner.agvs.scales=false '
+        '--set planner.profiling.method=none',
         'ended after 1 view, before it explored', 'outside the workspace', 'what helps: ')
     assert json_of(tmp_path / 'out/summary.json')['last_rejections']['out_of_bounds'] > 0
 

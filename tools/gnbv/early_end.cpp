@@ -102,6 +102,10 @@ std::string early_end_note(const MissionResult& result, double coverage,
       return after +
              "views found too little on their way; what helps: a smaller "
              "planner.termination.min_new_voxels_per_m (0: never), or a longer new_voxels_window\n";
+    case Termination::tour_complete:
+      return after +
+             "no view pays by what was seen so far; what helps: a start that sees the structure, "
+             "or planner.tour.explore: true\n";
     case Termination::battery:
       return after +
              "the vehicle needed the rest of its battery to come down; what helps: "
