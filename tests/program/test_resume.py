@@ -173,6 +173,20 @@ def test_the_mesh_asked_for_by_name_is_another_question(run, mesh, tmp_path):
     run(f'{RESUME} --mesh {mesh}', 'is not what the run began with', code=2)
 
 
+def test_a_mesh_is_known_by_what_it_holds_wherever_it_lies(run, tmp_path):
+    run('asset smoke -o smoke.obj')
+    run(f'run smoke {" ".join(FEW)} --out run --mesh smoke.obj')
+    (tmp_path / 'smoke.obj').rename(tmp_path / 'moved.obj')
+    run(f'{RESUME} --mesh moved.obj', 'nothing to resume')
+    (tmp_path / 'run/summary.json').unlink()
+    (tmp_path / 'other.obj').write_text(
+        re.sub('\nv .*', '\nv 0.1 0.2 0.9', (tmp_path / 'moved.obj').read_text(), count=1))
+    run(f'{RESUME} --mesh other.obj', 'other.obj is not what the run began with', code=2)
+    assert 'smoke.obj' in (tmp_path / 'run/scenario.yaml').read_text()
+    run(f'{RESUME} --mesh moved.obj')
+    assert 'moved.obj' in (tmp_path / 'run/scenario.yaml').read_text()
+
+
 def test_an_exchanged_profile_is_refused(run, whole, tmp_path):
     first, second = (whole('run', 'smoke', *FEW, '--seed', seed, '--out').path for seed in '12')
     shutil.copy(first / 'profile.map', tmp_path / 'p.map')

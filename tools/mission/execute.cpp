@@ -216,8 +216,9 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   auto interrupt = std::make_unique<const InterruptGuard>();
   const auto should_stop = [&] { return InterruptGuard::requested() || options.should_stop(); };
   auto route = known_route(scenario, world, scene, reference, show_progress, should_stop, threads);
+  const auto as_begun = inputs_as_begun(scenario, world, claim.folder());
   RunDirectory directory(claim.folder(), scenario, options.resume);
-  write_inputs(directory.path(), inputs_as_begun(scenario, world, directory.path()));
+  write_inputs(directory.path(), as_begun);
   try {
     RunRecorder recorder(scenario, directory, show_progress);
     MissionInputs inputs = {.observers = {&recorder}};

@@ -62,10 +62,18 @@ std::optional<RunSummary> summary_of(const fs::path& folder) {
 bool is_run_of(const fs::path& folder, const Scenario& scenario) {
   const std::string yaml = (folder / kScenarioFile).string();
   if (is_written_in(yaml, scenario)) return true;
+  Scenario before = scenario;
+  Scenario flown = load_flown_scenario(yaml);
+  const std::vector<MeshFileKey> now = mesh_files(before), then = mesh_files(flown);
+  // what a mesh holds, inputs.json says: where it lies may be another place by now
+  for (std::size_t i = 0; fs::exists(folder / kInputsFile) && i < now.size(); ++i) {
+    if (now.size() != then.size() || now[i].file->path.empty()) continue;
+    if (!then[i].file->path.empty()) now[i].file->path = then[i].file->path;
+  }
+  if (is_written_in(yaml, before)) return true;
   const std::vector<ViewPose>& views = scenario.planner.routes.views;
   if (views.empty() || given_rows(views_on_the_way(folder)) != given_rows(views)) return false;
-  Scenario before = scenario;
-  before.planner.routes.views = load_flown_scenario(yaml).planner.routes.views;
+  before.planner.routes.views = flown.planner.routes.views;
   return is_written_in(yaml, before);
 }
 
