@@ -103,20 +103,34 @@ struct JpegReader {
   bool read_header() {
     if (setjmp(errors.back) != 0) return false;
     jpeg_read_header(&info, TRUE);
-    info.out_color_space = JCS_RGB;
+    if (info.out_color_space != JCS_CMYK) info.out_color_space = JCS_RGB;
     return true;
   }
-  bool read_rows(std::uint8_t* rgb) {
+  bool read_rows(std::uint8_t* pixels) {
     if (setjmp(errors.back) != 0) return false;
     jpeg_start_decompress(&info);
     while (info.output_scanline < info.output_height) {
-      JSAMPLE* row = rgb + std::size_t{3} * info.output_width * info.output_scanline;
+      const auto channels = static_cast<std::size_t>(info.output_components);
+      JSAMPLE* row = pixels + channels * info.output_width * info.output_scanline;
       jpeg_read_scanlines(&info, &row, 1);
     }
     jpeg_finish_decompress(&info);
     return true;
   }
 };
+
+/// What four inks leave of white; inverted levels say that of each ink.
+void make_rgb(std::vector<std::uint8_t>& cmyk, bool is_inverted) {
+  const auto left_by = [&](std::uint8_t ink) { return is_inverted ? ink : 255 - ink; };
+  for (std::size_t i = 0; i < cmyk.size() / 4; ++i) {
+    const int left_by_black = left_by(cmyk[4 * i + 3]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      cmyk[3 * i + k] =
+          static_cast<std::uint8_t>((left_by(cmyk[4 * i + k]) * left_by_black + 127) / 255);
+    }
+  }
+  cmyk.resize(cmyk.size() / 4 * 3);
+}
 
 Image read_jpeg(std::string_view bytes, std::size_t most_px) {
   JpegReader reader(bytes);
@@ -127,8 +141,11 @@ Image read_jpeg(std::string_view bytes, std::size_t most_px) {
   need_size(reader.info.image_width, reader.info.image_height, most_px);
   Image image{
       static_cast<int>(reader.info.image_width), static_cast<int>(reader.info.image_height), {}};
-  image.rgb.resize(std::size_t{3} * reader.info.image_width * reader.info.image_height);
+  const bool is_cmyk = reader.info.out_color_space == JCS_CMYK;
+  image.rgb.resize((is_cmyk ? std::size_t{4} : std::size_t{3}) * reader.info.image_width *
+                   reader.info.image_height);
   need(reader.read_rows(image.rgb.data()));
+  if (is_cmyk) make_rgb(image.rgb, reader.info.saw_Adobe_marker != 0);
   return image;
 }
 
@@ -147,25 +164,16 @@ std::string without_scheme(std::string uri) {
 
 /// Nothing for what is no base64 (RFC 4648, with either alphabet); blanks count for nothing.
 std::optional<std::string> bytes_of_base64(std::string_view text) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/-_";
   std::string out;
   std::uint32_t bits = 0;
   unsigned filled = 0;
   for (const char c : text) {
     if (c == '=' || c == '\n' || c == '\r' || c == ' ' || c == '\t') continue;
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z')
-      value = static_cast<std::uint32_t>(c - 'A');
-    else if (c >= 'a' && c <= 'z')
-      value = static_cast<std::uint32_t>(c - 'a' + 26);
-    else if (c >= '0' && c <= '9')
-      value = static_cast<std::uint32_t>(c - '0' + 52);
-    else if (c == '+' || c == '-')
-      value = 62;
-    else if (c == '/' || c == '_')
-      value = 63;
-    else
-      return std::nullopt;
-    bits = bits << 6U | value;
+    const std::size_t digit = kDigits.find(c);
+    if (digit == kDigits.npos) return std::nullopt;
+    bits = bits << 6U | static_cast<std::uint32_t>(digit < 64 ? digit : digit - 2);
     filled += 6;
     if (filled < 8) continue;
     filled -= 8;

@@ -64,20 +64,6 @@ TEST_F(MeshFile, CoordinatesThatAreNotFiniteAreNamed) {
   }
 }
 
-TEST_F(MeshFile, CoordinatesTooSmallForADoubleAreZero) {
-  const std::string rows = "1e-400 0 0\n1 -1e-999999999999 0\n0 1 0.00000e-320\n";
-  const std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
-  std::string obj = "v " + rows;
-  for (std::size_t at = 0; (at = obj.find('\n', at)) + 1 < obj.size();) obj.insert(++at, "v ");
-  for (const fs::path& path :
-       {write("t.obj", obj + "f 1 2 3\n"), write("t.ply", ply + rows + "3 0 1 2\n")}) {
-    const TriangleMesh mesh = load_mesh(file(path));
-    EXPECT_EQ(mesh.vertices_m, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << path;
-  }
-}
-
 TEST_F(MeshFile, UnusableConfigIsNamed) {
   const std::string path = write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_TRUE(says(complaint({.path = path, .scale = 0.0}), {"scale = 0"}));

@@ -420,6 +420,23 @@ TEST_F(PictureFile, ColladaPolygonsWithHolesKeepTheirCoordinates) {
   expect_upright(read("a.dae", holed));
 }
 
+TEST(Picture, OfFourInksIsWhatTheyLeaveOfWhite) {
+  // a pixel of (200, 100, 50, 127), which are inverted where Adobe's mark stands
+  const std::string adobe = *bytes_of_data_uri(
+      "data:;base64,"
+      "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwABAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQ"
+      "EBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEBAQEB/8AAFAgAAQABBEMRAE0RAFkRAEsRAP/EABYAAQEB"
+      "AAAAAAAAAAAAAAAAAAoECP/EABQQAQAAAAAAAAAAAAAAAAAAAAD/2gAOBEMATQBZAEsAAD8ASAw+Me"
+      "nf/9k=");
+  std::string ycck = adobe;
+  ycck[17] = 2;  // of the mark: which colours they are
+  const auto rgb = [](const std::string& jpeg) { return read_picture(jpeg, 1).rgb; };
+  using Rgb = std::vector<std::uint8_t>;
+  EXPECT_EQ(rgb(adobe), (Rgb{100, 50, 25}));
+  EXPECT_EQ(rgb(ycck), (Rgb{82, 0, 52}));
+  EXPECT_EQ(rgb(adobe.substr(0, 2) + adobe.substr(18)), (Rgb{28, 78, 103}));
+}
+
 TEST_F(PictureFile, APngIsInSrgbWhateverItsDepthAndItsGamma) {
   write_png(GreyImage16{1, 1, {0x8080}}, folder_ / "grey.png");
   const std::string png = read_file(folder_ / "grey.png");
