@@ -136,8 +136,10 @@ class SdfReader {
     if (++models_ > kMostModels || open_ > 30) {
       fail(at, fmt::format("more than {} models, or models more than 30 deep", kMostModels));
     }
-    if (at.element.attribute("placement_frame") || at.element.child("placement_frame")) {
-      fail(at, "placement_frame is not read");
+    for (const char* const moves : {"placement_frame", "params"}) {
+      if (at.element.attribute(moves) || at.element.child(moves)) {
+        fail(at, fmt::format("{} is not read", moves));
+      }
     }
   }
 

@@ -204,7 +204,9 @@ TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
         {of_visual("<pose>1 2 3</pose>", kBox), "<pose> has 3 numbers"},
         {of_visual("<pose>1 2 3 0 0 nan</pose>", kBox), "'nan' is no number"},
         {of_visual("<pose relative_to='z'>0 0 0 0 0 0</pose>", kBox), "the frame 'z' is not in"},
-        {of_visual("<pose frame='z'>0 0 0 0 0 0</pose>", kBox), "use relative_to"}}) {
+        {of_visual("<pose frame='z'>0 0 0 0 0 0</pose>", kBox), "use relative_to"},
+        {complaint_of("m.sdf", sdf("<model placement_frame='a'/>")), "placement_frame is not"},
+        {complaint_of("m.sdf", sdf("<include><e:params/></include>")), "params is not read"}}) {
     EXPECT_TRUE(test::says(complaint, {words}));
   }
   EXPECT_TRUE(test::says(
