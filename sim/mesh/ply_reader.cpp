@@ -12,23 +12,21 @@
 namespace gnbv {
 namespace {
 
+template <typename T>
+constexpr PlyType ply_type(std::string_view name, std::string_view other_name, double full) {
+  return {name, other_name, sizeof(T), full,
+          [](const char* at) { return static_cast<double>(number_at<T>(at)); }};
+}
+
 constexpr std::array kTypes = {
-    PlyType{"char", "int8", 1, 255.0,
-            [](const char* at) { return static_cast<double>(number_at<std::int8_t>(at)); }},
-    PlyType{"uchar", "uint8", 1, 255.0,
-            [](const char* at) { return static_cast<double>(number_at<std::uint8_t>(at)); }},
-    PlyType{"short", "int16", 2, 65535.0,
-            [](const char* at) { return static_cast<double>(number_at<std::int16_t>(at)); }},
-    PlyType{"ushort", "uint16", 2, 65535.0,
-            [](const char* at) { return static_cast<double>(number_at<std::uint16_t>(at)); }},
-    PlyType{"int", "int32", 4, 4294967295.0,
-            [](const char* at) { return static_cast<double>(number_at<std::int32_t>(at)); }},
-    PlyType{"uint", "uint32", 4, 4294967295.0,
-            [](const char* at) { return static_cast<double>(number_at<std::uint32_t>(at)); }},
-    PlyType{"float", "float32", 4, 1.0,
-            [](const char* at) { return static_cast<double>(number_at<float>(at)); }},
-    PlyType{"double", "float64", 8, 1.0,
-            [](const char* at) { return static_cast<double>(number_at<double>(at)); }},
+    ply_type<std::int8_t>("char", "int8", 255.0),
+    ply_type<std::uint8_t>("uchar", "uint8", 255.0),
+    ply_type<std::int16_t>("short", "int16", 65535.0),
+    ply_type<std::uint16_t>("ushort", "uint16", 65535.0),
+    ply_type<std::int32_t>("int", "int32", 4294967295.0),
+    ply_type<std::uint32_t>("uint", "uint32", 4294967295.0),
+    ply_type<float>("float", "float32", 1.0),
+    ply_type<double>("double", "float64", 1.0),
 };
 
 }  // namespace

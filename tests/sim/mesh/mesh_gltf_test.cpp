@@ -11,12 +11,8 @@ namespace {
 using namespace test;
 
 std::string data_uri(const std::string& bytes) {
-  constexpr std::string_view kHex = "0123456789ABCDEF";
   std::string out = "data:application/octet-stream,";
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
-  }
+  for (const char c : bytes) out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
   return out;
 }
 
