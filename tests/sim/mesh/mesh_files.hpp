@@ -94,6 +94,12 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return at == text.npos ? text : text.replace(at, from.size(), to);
 }
 
+inline std::string data_uri(const std::string& bytes) {
+  std::string out = "data:application/octet-stream,";
+  for (const char c : bytes) out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
 inline std::string in_utf16(const std::string& text, bool is_big, bool has_mark) {
   std::string out = has_mark ? (is_big ? "\xFE\xFF" : "\xFF\xFE") : "";
   for (const char c : text) out += is_big ? std::string{'\0', c} : std::string{c, '\0'};

@@ -10,12 +10,6 @@ namespace {
 
 using namespace test;
 
-std::string data_uri(const std::string& bytes) {
-  std::string out = "data:application/octet-stream,";
-  for (const char c : bytes) out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return out;
-}
-
 /// A triangle (0,0,0) (1,0,0) (0,1,0), three numbers of `T` a corner, and what else stands in the
 /// file: of the node, the mesh, the primitive and the root.
 struct Gltf {

@@ -185,9 +185,12 @@ TEST_F(PictureFile, AffineCoordinatesStayAffineOnAnyPolygon) {
   }
 }
 
+const std::string kFourPng = R"(, "textures": [{"source": 0}], "images": [{"uri": "four.png"}])";
+const std::string kTextured = R"("baseColorTexture": {"index": 0})";
+
 /// The unit square as two triangles with texture coordinates of that encoding, v down.
 struct GltfSquare {
-  std::string attributes, material, root, bytes, accessors, views;
+  std::string material = kTextured, root = kFourPng, attributes, bytes, accessors, views;
 
   GltfSquare() {
     for (const int x : {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})
@@ -224,8 +227,6 @@ struct GltfSquare {
   }
 };
 
-const std::string kFourPng = R"(, "textures": [{"source": 0}], "images": [{"uri": "four.png"}])";
-const std::string kTextured = R"("baseColorTexture": {"index": 0})";
 const std::vector<float> kUvs = {0, 1, 1, 1, 1, 0, 0, 0};
 
 TEST_F(PictureFile, GltfHasVGoingDownInEveryEncodingAndFromAnywhere) {
@@ -234,8 +235,6 @@ TEST_F(PictureFile, GltfHasVGoingDownInEveryEncodingAndFromAnywhere) {
     expect_upright(read("a.gltf", square.json()));
   };
   GltfSquare plain;
-  plain.material = kTextured;
-  plain.root = kFourPng;
   GltfSquare square = plain;
   square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
   expect(square);
@@ -259,16 +258,12 @@ TEST_F(PictureFile, GltfHasVGoingDownInEveryEncodingAndFromAnywhere) {
                               square.bytes.size(), png.size());
   square.bytes += png;
   expect(square);
-  std::string hex;
-  for (const char c : png) hex += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  square.root = fmt::format(
-      R"(, "textures": [{{"source": 0}}], "images": [{{"uri": "data:image/png,{}"}}])", hex);
+  square.root = replaced(kFourPng, "four.png", data_uri(png));
   expect(square);
 }
 
 TEST_F(PictureFile, GltfSamplersWrapAndTransformsPlace) {
   GltfSquare square;
-  square.material = kTextured;
   square.add("TEXCOORD_0", std::vector<float>{-1, 2, 1, 2, 1, 0, -1, 0}, 5126, "VEC2");
   const auto colours = [&](int wrap) {
     square.root = fmt::format(
@@ -288,7 +283,6 @@ TEST_F(PictureFile, GltfSamplersWrapAndTransformsPlace) {
   GltfSquare turned;
   turned.material = R"("baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
 {"offset": [0, 1], "rotation": 1.57079632679, "scale": [0.5, 0.5]}}})";
-  turned.root = kFourPng;
   turned.add("TEXCOORD_0", kUvs, 5126, "VEC2");
   Image large{4, 4, std::vector<std::uint8_t>(48, 77)};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -309,7 +303,6 @@ TEST_F(PictureFile, GltfColoursOfVerticesAreTheSameInEveryEncoding) {
   const auto tint = [&](auto full, int component, bool is_share, std::size_t width) {
     GltfSquare square;
     square.material = R"("baseColorFactor": [0.5, 1, 1, 1], )" + kTextured;
-    square.root = kFourPng;
     square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
     std::vector<decltype(full)> values;
     for (int i = 0; i < 4; ++i) {
@@ -330,6 +323,7 @@ TEST_F(PictureFile, GltfColoursOfVerticesAreTheSameInEveryEncoding) {
   }
   // half of the light between a black edge and a white one
   GltfSquare shaded;
+  shaded.material = shaded.root = "";
   shaded.add("COLOR_0", std::vector<float>{0, 0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 0}, 5126, "VEC3");
   write("square.bin", shaded.bytes);
   const TriangleMesh mesh = read("a.gltf", shaded.json()).mesh;
@@ -489,8 +483,6 @@ TEST_F(PictureFile, NoFaultOfLooksRefusesAShape) {
   survives("a.obj", replaced(kObj, "2/2", "2/-9"));
   survives("a.obj", replaced(kObj, "2/2", "2"));
   GltfSquare square;
-  square.material = kTextured;
-  square.root = kFourPng;
   square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
   square.add("COLOR_0", std::vector<float>(12, 1.0F), 5126, "VEC3");
   write("square.bin", square.bytes);
@@ -527,8 +519,6 @@ TEST_F(PictureFile, LooksThatNobodySeesAreAWarning) {
   expect_warning(read("a.obj", replaced(kObj, "f 1/1 2/2 3/3 4/4", "f 1 2 3 4")), "2" + lacking);
   expect_warning(read("a.obj", replaced(kObj, "2/2", "2/9")), "1" + lacking);
   GltfSquare square;
-  square.material = kTextured;
-  square.root = kFourPng;
   write("square.bin", square.bytes);
   expect_warning(read("a.gltf", square.json()), "2" + lacking);
   write("n.mtl", "newmtl n\nKd 1 1 1\n");
@@ -615,6 +605,7 @@ TEST_F(PictureFile, ModelsPutPicturesOnMeshesThatHaveNone) {
   const std::string uri = "model://skin/materials/textures/a%20b.png";
   expect_upright(read("m.sdf", sdf(mesh, uri)));
   GltfSquare square;
+  square.material = square.root = "";
   square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
   write("square.bin", square.bytes);
   write("plain.gltf", square.json());
@@ -652,8 +643,6 @@ TEST_F(PictureFile, AMeshIsReadFromItsFilesAllOfThem) {
   };
   EXPECT_EQ(names(read("a.obj", kObj)), (std::vector<std::string>{"m.mtl", "four.png"}));
   GltfSquare square;
-  square.material = kTextured;
-  square.root = kFourPng;
   square.add("TEXCOORD_0", kUvs, 5126, "VEC2");
   write("square.bin", square.bytes);
   EXPECT_EQ(names(read("a.gltf", square.json())),
