@@ -64,6 +64,7 @@ def test_an_incomplete_run_is_drawn_as_far_as_it_goes(run, copy, views):
     ('run --azimuth-deg nan', "'nan' must be a finite number"),
     ('run --elevation-deg nan', "'nan' must be from -89 to 90"),
     ('run --iteration -1', '--iteration: Value -1 not in range'),
+    ('run --film-s 1e9', '--film-s: Value 1e9 not in range'),
     ('run --camera two.json', 'two.json: position_m: [0,1] is not three numbers'),
     ('run --camera typo.json', 'typo.json: position: no such key'),
     ('run -o picture.jpg', '--out picture.jpg: pictures are .png'),

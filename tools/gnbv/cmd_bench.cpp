@@ -211,9 +211,7 @@ void add_freeze_part(CLI::App& bench, const Options& o) {
       });
   freeze.add_option("SUITE", o->suite, "YAML; what is frozen in it stays")->required();
   freeze.add_option("--track", o->track, "whose tasks")->required();
-  freeze.add_option("--planners", o->planners, "of whom the best counts, with commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+  add_list(freeze, "--planners", o->planners, "of whom the best counts, with commas")
       ->capture_default_str();
   freeze.add_option("-o,--out", o->out, "folder of the missions; the same one goes on with them")
       ->required();

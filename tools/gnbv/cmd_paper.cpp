@@ -90,11 +90,8 @@ void add_paper_command(CLI::App& app) {
   add_cells_options(*command, options->bench, "how many seeds for each row, from --seed on");
   command->add_option("--seed", options->first_seed, "the first seed; pictures show its missions")
       ->capture_default_str();
-  command
-      ->add_option("--scenarios", options->scenarios,
-                   "some of the paper's scenarios, with commas (default: all)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+  add_list(*command, "--scenarios", options->scenarios,
+           "some of the paper's scenarios, with commas (default: all)")
       ->check(is_one_of(paper_scenarios()));
   command->add_option("--set", options->overrides, "KEY=VALUE of all scenario files; repeatable")
       ->allow_extra_args(false);

@@ -88,11 +88,6 @@ void plot(const PlotOptions& options) {
   }
 }
 
-CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
-                      const char* meaning) {
-  return command.add_option(name, values, meaning)->delimiter(',')->allow_extra_args(false);
-}
-
 void add_look_options(CLI::App& command, PlotOptions& options) {
   command.add_option("--title", options.figures.title, "title of each figure, instead of its own");
   add_list(command, "--labels", options.figures.labels,

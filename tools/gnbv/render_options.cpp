@@ -135,10 +135,7 @@ void set_letters(RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("RUN", options.runs, "run directories; all get the same camera")->required();
-  command.add_option("--what", options.what, help_on_what())
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+  add_list(command, "--what", options.what, help_on_what())->capture_default_str();
   command.add_option(
       "-o,--out", options.out,
       "PNG, MP4, GIF, APNG or WebP to write, or a folder (default: the run directory)");
@@ -160,7 +157,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(CLI::Range(1, 120))
       ->capture_default_str();
   command.add_option("--film-s", options.film_s, "movie: how long it is (s)")
-      ->check(is_positive())
+      ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   command
       .add_option("--letters", options.letters,

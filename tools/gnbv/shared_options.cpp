@@ -77,15 +77,17 @@ void add_preset_option(CLI::App& command, ScenarioOptions& options) {
       "paper; the authors' code: released (2017), authors_2018; or takeoff: no profile");
 }
 
+CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
+                      const std::string& meaning) {
+  return command.add_option(name, values, meaning)->delimiter(',')->allow_extra_args(false);
+}
+
 CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,
                                   const std::string& what) {
-  return command
-      .add_option("--utilities", utilities,
+  return add_list(command, "--utilities", utilities,
                   what +
                       ": utilities by name, utilities and planners of yours as "
-                      "[NAME=]FILE.py[:FUNCTION], with commas")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+                      "[NAME=]FILE.py[:FUNCTION], with commas");
 }
 
 void add_threads_option(CLI::App& command, int& threads, const std::string& what) {

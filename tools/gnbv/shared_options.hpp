@@ -27,6 +27,10 @@ void add_scenario_options(CLI::App& command, ScenarioOptions& options);
 /// --preset of the planner.
 void add_preset_option(CLI::App& command, ScenarioOptions& options);
 
+/// Words with commas between them; repeatable.
+CLI::Option* add_list(CLI::App& command, const char* name, std::vector<std::string>& values,
+                      const std::string& meaning);
+
 /// --utilities: `what` they are.
 CLI::Option* add_utilities_option(CLI::App& command, std::vector<std::string>& utilities,
                                   const std::string& what);
