@@ -148,7 +148,12 @@ const std::vector<std::string>& figure_kinds_of_runs() {
 void dress_groups(std::vector<RunGroup>& groups, const FigureRequest& request) {
   if (groups.empty()) return;
   const GroupFinder finder(groups);
-  for (const std::string& text : request.labels) {
+  for (std::size_t i = 0; i < request.labels.size();) {
+    std::string text = request.labels[i];
+    // a label may hold the commas that part them: what has no group goes on with the one before
+    while (++i < request.labels.size() && request.labels[i].find('=') == std::string::npos) {
+      text += ',' + request.labels[i];
+    }
     auto [group, label] = finder.need_pair("--labels", text);
     groups[group].label = std::move(label);
   }

@@ -91,8 +91,8 @@ void plot(const PlotOptions& options) {
 void add_look_options(CLI::App& command, PlotOptions& options) {
   command.add_option("--title", options.figures.title, "title of each figure, instead of its own");
   add_list(command, "--labels", options.figures.labels,
-           "GROUP=LABEL of the legend, with commas; a GROUP is its label, its utility, or its "
-           "number from 1");
+           "GROUP=LABEL of the legend, with commas, also in a LABEL; a GROUP is its label, its "
+           "utility, or its number from 1");
   add_list(command, "--colors", options.figures.colours, "GROUP=#rrggbb, with commas");
   add_list(command, "--order", options.figures.order,
            "GROUPs in the order of the legend, with commas; the others follow");

@@ -185,12 +185,12 @@ TEST(DressGroups, NamesColoursAndOrderAreTheUsers) {
   runs[2].scenario.planner.utility.name = "bircher";
   std::vector<std::string> notes;
   std::vector<RunGroup> groups = group_runs(runs, notes);
-  FigureRequest request{.labels = {"Isler=Isler = 2016", "3=B"},
+  FigureRequest request{.labels = {"Isler=Isler = 2016", " here", "3=B"},
                         .colours = {"proposed=#ABCDEF"},
                         .order = {"bircher", "Isler"}};
   dress_groups(groups, request);
   EXPECT_EQ(groups[0].label, "B");
-  EXPECT_EQ(groups[1].label, "Isler = 2016");
+  EXPECT_EQ(groups[1].label, "Isler = 2016, here");
   EXPECT_EQ(groups[2].label, "Proposed");
   EXPECT_EQ(groups[2].look.colour, "#abcdef");
   for (const auto& [bad, words] : std::vector<std::pair<FigureRequest, std::string>>{
