@@ -220,6 +220,7 @@ nb::tuple run(const nb::dict& given, nb::object planner, nb::object on_progress,
     const nb::gil_scoped_release other_threads_run;
     const InterruptGuard interrupt(InterruptGuard::kGuest);
     mission = std::make_unique<ExecutedMission>(execute_mission(scenario, options));
+    mission->interrupt.reset();  // arrays that are kept keep the mission
     const bool is_heard = mission->result.termination == Termination::interrupted;
     // it is for Python, then; a second one it has already
     if (InterruptGuard::requests() == 1 && !is_heard) PyErr_SetInterrupt();
