@@ -19,7 +19,7 @@ mkdir -p "$folder/page/build"
 ln -s "$build" "$folder/page/build/release"
 ln -s "$root/examples" "$folder/page/examples"
 ln -s "$root/bench" "$folder/page/bench"
-export PATH=$build:$PATH PYTHONDONTWRITEBYTECODE=1
+export PATH=$build:$PATH PYTHONDONTWRITEBYTECODE=1 GNBV_CACHE=$folder/cache
 GNBV_PYTHON=${GNBV_PYTHON:-python3}
 skip() { echo "page_commands: skipped: $page needs $*" >&2; exit 77; }
 

@@ -7,6 +7,7 @@ import shlex
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import types
 
@@ -22,6 +23,8 @@ def pytest_addoption(parser):
     group = parser.getgroup('gnbv')
     group.addoption('--gnbv', type=pathlib.Path, default=REPOSITORY / 'build/release/gnbv',
                     help='the program (default: the release build)')
+    group.addoption('--cache', action='store_true',
+                    help='true surfaces and ceilings are kept from test to test')
     group.addoption('--tries', type=int, help='of each kind (default: TRIES of the attack)')
     group.addoption('--seed', type=int, default=1, help='of the moments (default: 1)')
     group.addoption('--every', type=int, default=1, help='only each N-th test: the short version')
@@ -34,6 +37,10 @@ def pytest_configure(config):
     config.option.gnbv = config.option.gnbv.resolve()
     if not os.access(config.option.gnbv, os.X_OK):
         raise pytest.UsageError(f'{config.option.gnbv} is no program: tools/build makes it')
+    if config.option.cache:
+        folder = tempfile.TemporaryDirectory(prefix='gnbv-cache-')
+        config.add_cleanup(folder.cleanup)
+        Gnbv.cache = folder.name
 
 
 def pytest_generate_tests(metafunc):

@@ -63,11 +63,12 @@ class End:
 
 
 class Gnbv:
-    """The program in a folder, without a cache unless one is given."""
+    """The program in a folder, without a cache unless tests have one in common."""
+    cache = ''
 
     def __init__(self, path, folder, before=(), **environment):
         self.path, self.folder, self.before = str(path), folder, list(before)
-        self.environment = {'GNBV_CACHE': '', **os.environ, **environment}
+        self.environment = {**os.environ, 'GNBV_CACHE': self.cache, **environment}
 
     def start(self, *words, **more):
         files = tempfile.TemporaryFile(), tempfile.TemporaryFile()  # a pipe could outlive it

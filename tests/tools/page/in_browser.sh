@@ -11,4 +11,5 @@ export CHROMIUM
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
+export GNBV_CACHE=$folder/cache
 "$@"
