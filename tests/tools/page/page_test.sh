@@ -44,9 +44,7 @@ layers lab.html lab --only decisionsAreTold
 "$gnbv" report bursts --quiet -o bursts.html >/dev/null
 layers bursts.html bursts --only decisionsAreTold
 layers seeds.html seed1 seed2 --only foundIsCoverage decisionsAreTold plotsTellRunsApart
-node "$here/page_test.mjs" "$CHROMIUM" one.html "${evil}proposed"
-node "$here/page_test.mjs" "$CHROMIUM" two.html "${evil}proposed" "${evil}tour"
-# of links, files and paper two runs show all that one does
-layers one.html "${evil}proposed" --only gistIsLikeTheWhole foundIsCoverage decisionsAreTold \
-  pointingTells lineParts legendsTell plotsTellRunsApart
-layers two.html "${evil}proposed" "${evil}tour"
+for test in page_test page_layers_test; do
+  node "$here/$test.mjs" "$CHROMIUM" one.html "${evil}proposed"
+  node "$here/$test.mjs" "$CHROMIUM" two.html "${evil}proposed" "${evil}tour"
+done
