@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/core/belief.hpp"
 #include "planner/motion/paths.hpp"
 #include "planner/tour/gains.hpp"
 #include "planner/tour/timed_tour.hpp"
-#include "sim/core/parallel.hpp"
+#include "planner/tour/unseen_space.hpp"
 
 namespace gnbv {
 namespace {
@@ -174,11 +173,17 @@ bool solve_tour(const Step& step) {
   return !state.tour.empty();
 }
 
-/// Whether a view sees enough unknown space: then the tour is that which sees the most for its way.
-bool explore(const Step& step) {
+/// Whether a view sees enough unknown space, of all or of a hull: then the tour is that which sees
+/// the most for its way.
+bool explore(const Step& step, const SurfaceHull* within = nullptr) {
   TourState& state = step.state;
   constexpr std::size_t kMostNodes = 160;
-  const std::span<const Roadmap::Node> nodes = state.roadmap.reachable();
+  std::vector<Roadmap::Node> nodes;
+  for (const Roadmap::Node node : state.roadmap.reachable()) {
+    const bool is_far = within != nullptr &&
+                        within->off_m(state.roadmap.p_world_m(node)) > state.visibility.reach_m();
+    if (!is_far) nodes.push_back(node);
+  }
   const std::size_t one_in = (nodes.size() + kMostNodes - 1) / kMostNodes;
   const std::span<const float> row_m = state.roadmap.row_m(Roadmap::here(), step.stop);
   std::vector<TourView> views;
@@ -193,7 +198,7 @@ bool explore(const Step& step) {
     }
   }
   const std::optional<std::size_t> best =
-      most_unseen(step.model, step.belief, views, way_m, step.scratch);
+      most_unseen(step.model, step.belief, views, way_m, step.scratch, within);
   if (!best) return false;
   state.tour = {views[*best]};
   state.cost_factor = 1.0;  // of what it will find
@@ -208,6 +213,20 @@ void solve_at_lower_costs(const Step& step) {
     if (is_lowest || step.state.voxels_in_reach() <= may_stay) return;
     step.state.cost_factor *= 0.5;
   } while (!solve_tour(step));
+}
+
+/// Whether unknown space in the hull of the surface is worth a look, at the end: that of a building
+/// whose open side nobody passed. It is not after some such looks that brought no surface.
+bool look_inside(const Step& step) {
+  constexpr int kTries = 3;
+  TourState& state = step.state;
+  const double voxels = expected_surface(state.cells).voxels;
+  const bool has_grown = voxels > (1.0 + kEndShare) * state.voxels_at_look;
+  state.looks_in_vain = has_grown ? 0 : state.looks_in_vain + 1;
+  state.voxels_at_look = voxels;
+  if (state.looks_in_vain >= kTries) return false;
+  const SurfaceHull hull(state.cells);
+  return explore(step, &hull);
 }
 
 /// Where no node can be reached: the open voxels about the vehicle become nodes.
@@ -243,6 +262,7 @@ TourPlan replan(const Step& step, bool may_explore) {
   state.views_since_replan = 0;
   state.is_due = false;
   if (!solve_tour(step) && !(may_explore && explore(step))) solve_at_lower_costs(step);
+  if (state.tour.empty()) look_inside(step);
   std::vector<ViewPose> views;
   for (const TourView& view : state.tour) views.push_back(view.pose);
   return make_tour_plan(std::move(views), state.patches, state.calibration.yield());
@@ -338,34 +358,6 @@ bool hand_out_view(const Step& step, const ViewChecker& checker, Plan& plan) {
 }
 
 }  // namespace
-
-std::optional<std::size_t> most_unseen(const PlannerModel& model, const Belief& belief,
-                                       std::span<const TourView> views,
-                                       std::span<const double> way_m, Scratch& scratch) {
-  constexpr double kLeastShare = 0.02;
-  constexpr double kLook_m = 4.0;  // what stopping to look costs beside the way
-  std::vector<std::uint32_t> unknown(views.size(), 0);
-  const std::size_t shares = scratch.marks.size();
-  parallel_for(scratch.threads, shares, [&](std::size_t share) {
-    for (std::size_t i = share; i < views.size(); i += shares) {
-      scratch.heed_stop();
-      const ViewPose& view = views[i].pose;
-      const ViewRays& rays = model.rays_at(view.gimbal_pitch_rad);
-      unknown[i] =
-          evaluate_view(belief.grid, belief.cloud, rays, view, scratch.marks[share]).unknown_voxels;
-    }
-  });
-  std::optional<std::size_t> best;
-  double most = 0.0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (unknown[i] < kLeastShare * model.view_voxels) continue;
-    const double rate = unknown[i] / (way_m[i] + kLook_m);
-    if (rate <= most) continue;
-    most = rate;
-    best = i;
-  }
-  return best;
-}
 
 Plan TourPlanner::next(const Belief& belief, const History& history, const ViewPose& current,
                        Scratch& scratch) {

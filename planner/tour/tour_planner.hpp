@@ -30,11 +30,4 @@ class TourPlanner final : public Planner {
   TourState state_;
 };
 
-/// Where to look when nothing is known to be missing: of the views that which sees the most unknown
-/// voxels per metre of its way, the first of equals; `way_m`: to each. Nothing when none sees a
-/// fiftieth of what the cameras' frusta hold. The same at any number of threads.
-std::optional<std::size_t> most_unseen(const PlannerModel& model, const Belief& belief,
-                                       std::span<const TourView> views,
-                                       std::span<const double> way_m, Scratch& scratch);
-
 }  // namespace gnbv

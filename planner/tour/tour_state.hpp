@@ -47,6 +47,8 @@ struct TourState {
   bool is_due = true;        // the tour has to be made anew
   double cost_factor = 1.0;  // of what a metre costs: halved while what is left does not pay
   std::uint64_t searches = 0;
+  double voxels_at_look = 0.0;  // expected when it was last looked into the hull of the surface
+  int looks_in_vain = 0;        // since such a look brought surface
 
   bool is_refused(const ViewPose& pose) const;
   /// Of each patch, whether a view from any reachable node sees it.

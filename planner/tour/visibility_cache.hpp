@@ -22,6 +22,8 @@ class VisibilityCache {
                   std::span<const double> pitches_rad, const Box3& workspace_m);
 
   /// Ways to look from a node: each yaw with each pitch.
+  /// How far any camera sees from a node.
+  double reach_m() const { return reach_m_; }
   int headings() const { return yaws_ * static_cast<int>(pitches_rad_.size()); }
   ViewPose pose(const Vec3& p_world_m, int heading) const;
   /// The heading nearest to that of the pose.

@@ -10,7 +10,7 @@
 #include "planner/map/frontiers.hpp"
 #include "planner/map/occupancy_grid.hpp"
 #include "planner/route/route_planners.hpp"
-#include "planner/tour/tour_planner.hpp"
+#include "planner/tour/unseen_space.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/wall_world.hpp"
 

@@ -78,6 +78,36 @@ TEST(TourPlanner, AsksOftenWhetherToStopWhereverItIs) {
   }
 }
 
+/// A shed whose open side faces the vehicle. Nothing of its walls pays at this price.
+TEST(TourPlanner, BeforeItEndsItLooksIntoWhatItsSurfaceSurrounds) {
+  const TourWorld world;
+  const PlannerModel model = world.model(1);
+  const Box3 outside_m(Vec3(0, -3, 0), Vec3(6, 3, 5));
+  const Box3 inside_m(Vec3(-1, -2.6, 0), Vec3(5.6, 2.6, 4.6));
+  const auto is_inside = [&](const Vec3& p_m) {
+    return outside_m.contains(p_m) && inside_m.contains(p_m);
+  };
+  const auto first_plan = [&](const auto& is_unknown) {
+    Belief belief(model);
+    hit(belief.grid, voxels_where(belief.grid, [&](const Vec3& p_m) {
+          return outside_m.contains(p_m) && !inside_m.contains(p_m);
+        }));
+    clear(belief.grid, voxels_where(belief.grid, [&](const Vec3& p_m) {
+            return (!outside_m.contains(p_m) || inside_m.contains(p_m)) && !is_unknown(p_m);
+          }));
+    sample_thinly(belief);
+    Scratch scratch(model, 2);
+    TourPlanner planner({.explore = false, .price = 1e6, .end_price = 1.0}, model, false);
+    return planner.next(belief, {}, {Vec3(-6.0, 0.1, 2.1), 0.0}, scratch);
+  };
+  const Plan look = first_plan(is_inside);
+  ASSERT_TRUE(look.has_view());
+  EXPECT_GT(std::cos(look.next().view.yaw_rad), 0.5) << "towards the shed";
+  EXPECT_EQ(first_plan([](const Vec3&) { return false; }).end, Termination::tour_complete);
+  const auto beyond = [](const Vec3& p_m) { return p_m.x() < -7.0 || p_m.z() > 6.0; };
+  EXPECT_EQ(first_plan(beyond).end, Termination::tour_complete) << "the sky is not surrounded";
+}
+
 /// Cameras that see a metre far in a box of 100 m would have 700,000 nodes.
 TEST(TourState, ALatticeOfItsOwnStepHasNoMoreNodesThanCanBePlannedOver) {
   for (const double range_m : {0.5, 1.0, 8.0}) {
