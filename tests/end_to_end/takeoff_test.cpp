@@ -3,7 +3,9 @@
 
 #include "scenarios/load.hpp"
 #include "tests/support/flown.hpp"
+#include "tests/support/known_inputs.hpp"
 #include "tests/support/watch.hpp"
+#include "tools/mission/reference.hpp"
 #include "tools/run/mission_result.hpp"
 
 namespace gnbv {
@@ -67,6 +69,24 @@ TEST(Takeoff, WaitsForTheGimbalNearTheView) {
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double straight_m = views[i].straight_m - views[i - 1].straight_m;
     EXPECT_LT(views[i].flown_m - views[i - 1].flown_m, straight_m + 4.0) << i;
+  }
+}
+
+/// Its map knows nothing of the way; the oracle does.
+TEST(Takeoff, AnOracleFliesThroughSpaceThatNobodyHasSeen) {
+  const Scenario scenario =
+      takeoff({"planner.utility.name=oracle_seconds", "planner.oracle.coverage=0.9"});
+  const World world = world_of(scenario);
+  const RayScene scene(world);
+  const SurfaceReference reference = reference_of(scenario, world, scene, 2);
+  const MissionInputs inputs = known_inputs(scenario, world, scene, reference);
+  const MissionResult result = run_mission(scenario, world, scene, inputs, 2);
+  EXPECT_EQ(result.termination, Termination::route_flown);
+  EXPECT_EQ(result.legs_timed_out, 0);
+  EXPECT_GT(result.distance.flown_m, 5.0);
+  for (const TrajectorySample& sample : result.trajectory) {
+    EXPECT_GT(scene.clearance_m(sample.T_world_body.translation(), 9.0),
+              scenario.planner.validity.collision_radius_m - 0.2);
   }
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/limits/legal_viewpoints.hpp"
 #include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
+#include "planner/planners.hpp"
 #include "sim/core/error.hpp"
 #include "sim/flight/guidance.hpp"
 #include "tools/mission/start_pose.hpp"
@@ -145,6 +147,16 @@ FreeSpace leg_space(const Mission& m) {
   space.allow_unknown = m.model.validity.allow_unknown;
   space.leg_radius_m = leg_radius_m(m.model.validity);
   return space;
+}
+
+bool is_leg_free(const Mission& m, const Vec3& from_world_m, const Vec3& to_world_m) {
+  if (!traits_of(m.scenario.planner).knows_structure) {
+    return leg_space(m).is_leg_free(from_world_m, to_world_m);
+  }
+  constexpr double kBeside_m = 0.05;  // that it flies beside the places planned
+  return m.model.no_fly.allows_leg(from_world_m, to_world_m) &&
+         is_leg_clear(m.scene, from_world_m, to_world_m,
+                      m.model.validity.collision_radius_m - kBeside_m);
 }
 
 bool is_clear_of_movers(const Mission& m, const Vec3& p_world_m, double in_s) {

@@ -79,6 +79,9 @@ void keep_track(Mission& m);
 FreeSpace free_space(const Mission& m);
 /// To a view: as planners plan (planner.validity).
 FreeSpace leg_space(const Mission& m);
+/// Whether a straight leg may be flown: by what is believed (leg_space()), or where the planner
+/// knows the structure by how far that is from it.
+bool is_leg_free(const Mission& m, const Vec3& from_world_m, const Vec3& to_world_m);
 
 /// Whether no body whose motion is known comes nearer than the collision radius then, so many
 /// seconds from now.

@@ -21,13 +21,12 @@ Reference reference_now(const Mission& m) {
 bool is_way_free(const Mission& m, const Vec3& from_m, std::span<const Reference> path) {
   constexpr std::size_t kChord = 5;
   constexpr double kOvershoot_m = 0.2;  // beyond the navigation box, of a curve
-  const FreeSpace space = leg_space(m);
   const Vec3 slack_m = Vec3::Constant(kOvershoot_m);
-  const Box3 box_m(space.navigation_m.min() - slack_m, space.navigation_m.max() + slack_m);
+  const Box3 box_m(m.model.navigation_m.min() - slack_m, m.model.navigation_m.max() + slack_m);
   Vec3 at_m = from_m;
   for (std::size_t i = kChord - 1; i < path.size() + kChord - 1; i += kChord) {
     const Vec3& to_m = path[std::min(i, path.size() - 1)].p_world_m;
-    if (!box_m.contains(to_m) || !space.is_leg_free(at_m, to_m)) return false;
+    if (!box_m.contains(to_m) || !is_leg_free(m, at_m, to_m)) return false;
     if (!is_clear_of_movers(m, to_m, static_cast<double>(i + 1) * kReference_s)) return false;
     at_m = to_m;
   }
@@ -182,7 +181,7 @@ std::optional<Termination> fly_legs(Mission& m, const Decision& next,
     const Vec3 here_m = m.flight->estimate().T_world_body.translation();
     const bool is_open = was_planned_from_here
                              ? !is_map_asked || leg_space(m).is_leg_clear(here_m, legs[i].p_world_m)
-                             : leg_space(m).is_leg_free(here_m, legs[i].p_world_m);
+                             : is_leg_free(m, here_m, legs[i].p_world_m);
     if (!is_open) {
       set_current(m, m.gimbal_pitch_rad);
       ++m.out.legs_timed_out;
@@ -239,7 +238,7 @@ std::optional<Termination> come_to_rest(Mission& m,
   m.path.clear();
   m.path_at = 0;
   const Vec3 here_m = m.flight->estimate().T_world_body.translation();
-  if (!was_at_rest && !leg_space(m).is_leg_free(here_m, m.current.p_world_m)) {
+  if (!was_at_rest && !is_leg_free(m, here_m, m.current.p_world_m)) {
     set_current(m, m.current.gimbal_pitch_rad);
   }
   return end == LegEnd::collision ? std::optional(Termination::collision) : std::nullopt;
