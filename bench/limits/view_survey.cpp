@@ -33,14 +33,14 @@ std::vector<CameraModel> coarse(std::span<const CameraModel> cameras) {
   return out;
 }
 
-/// Lattice steps between surveyed positions: one where two are more than half of what the most
-/// short-sighted camera reaches, since nobody would see what lies between them.
-std::int32_t stride_of(const LegalViewpoints& legal, std::span<const CameraModel> cameras) {
+/// The most lattice steps between surveyed positions: half of what the most short-sighted camera
+/// reaches, since nobody would see what lies between them.
+std::int32_t longest_stride(const LegalViewpoints& legal, std::span<const CameraModel> cameras) {
   double reach_m = std::numeric_limits<double>::infinity();
   for (const CameraModel& camera : cameras) {
     reach_m = std::min(reach_m, return_end_m(camera.config));
   }
-  return 2.0 * legal.step_m > 0.5 * reach_m ? 1 : 2;
+  return std::max(1, static_cast<std::int32_t>(0.5 * reach_m / legal.step_m));
 }
 
 double share_of_hits(std::span<const FrameRays> view) {
@@ -53,16 +53,16 @@ double share_of_hits(std::span<const FrameRays> view) {
   return static_cast<double>(hits) / static_cast<double>(std::max<std::size_t>(pixels, 1));
 }
 
+/// Of positions so many lattice steps apart.
 std::vector<SurveyedView> worthwhile_views(const RayScene& scene, const LegalViewpoints& legal,
                                            std::span<const CameraModel> cameras, double floor_z_m,
-                                           int threads, const HeedStop& stop) {
+                                           std::int32_t stride, int threads, const HeedStop& stop) {
   const std::vector<CameraModel> quick = coarse(cameras);
   const std::optional<GimbalConfig> gimbal = gimbal_of(cameras);
   const std::vector<double> pitches = gimbal ? pitches_rad(*gimbal) : std::vector<double>{0.0};
   double far_m = 0.0;
   for (const CameraModel& camera : cameras)
     far_m = std::max(far_m, FreeYawCamera(camera).reach_m());
-  const std::int32_t stride = stride_of(legal, cameras);
   std::vector<std::vector<SurveyedView>> at(legal.size());
   parallel_for(threads, legal.size(), [&](std::size_t i) {
     heed(stop);
@@ -97,7 +97,11 @@ ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
   const std::vector<CameraModel> cameras = exact_cameras(scenario);
   const double floor_z_m = scenario.planner.floor_z_m;
   ViewSurvey survey;
-  survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, threads, stop);
+  const std::int32_t longest = longest_stride(legal, cameras);
+  for (std::int32_t stride = std::min(2, longest);; ++stride) {
+    survey.views = worthwhile_views(scene, legal, cameras, floor_z_m, stride, threads, stop);
+    if (survey.views.size() <= kManySurveyedViews || stride >= longest) break;
+  }
   CloudOfViews cloud(scenario, reference.counted[0]);
   std::vector<std::vector<FrameRays>> rays(kViewsAtOnce);
   for (std::size_t begin = 0; begin < survey.views.size(); begin += kViewsAtOnce) {

@@ -14,6 +14,9 @@
 
 namespace gnbv {
 
+/// More make hours of a large hall: the aircraft has 3,100.
+constexpr std::size_t kManySurveyedViews = 8000;
+
 struct SurveyedView {
   std::uint32_t position = 0;             // of the legal viewpoints
   double yaw_rad = 0.0;                   // a multiple of 45 degrees, in (-pi, pi]
@@ -29,13 +32,13 @@ struct ViewSurvey {
   std::array<double, 3> leaf_counted{};
 };
 
-/// Every second legal position along each axis (every one where two steps are more than half the
-/// least range_max_m of the cameras) that has structure within reach, by eight yaws and all pitches
-/// of a gimbal, as far as surface above the floor, whosever it is, fills a twentieth of the images
-/// at least. All views, in the order of `views`, go
-/// through one cloud (CloudOfViews). A leaf of it keeps the centroid that reached it first, as a
-/// mission's does: another order gives a slightly different cloud. The same at any number of
-/// threads. `stop` is called several times a second, by any thread, and may throw.
+/// Every second legal position along each axis that has structure within reach, by eight yaws and
+/// all pitches of a gimbal, as far as surface above the floor, whosever it is, fills a twentieth of
+/// the images at least. Where these are more than kManySurveyedViews, every third position, and so
+/// on, but steps of no more than half the least range_max_m of the cameras. All views, in the order
+/// of `views`, go through one cloud (CloudOfViews). A leaf of it keeps the centroid that reached it
+/// first, as a mission's does: another order gives a slightly different cloud. The same at any
+/// number of threads. `stop` is called several times a second, by any thread, and may throw.
 ViewSurvey survey_views(const Scenario& scenario, const RayScene& scene,
                         const LegalViewpoints& legal, const SurfaceReference& reference,
                         int threads, const HeedStop& stop = {});

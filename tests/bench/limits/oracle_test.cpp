@@ -211,6 +211,27 @@ TEST(ViewSurvey, FindsNoMoreAloneThanThereIsAndTogetherWhatTheCloudKeeps) {
   EXPECT_LE(survey().leaf_counted[0], together / static_cast<double>(voxels) + 1e-12);
 }
 
+/// A closed room: something is in sight wherever a camera looks.
+TEST(ViewSurvey, LooksFromFewerPositionsWhereThereWouldBeTooManyViews) {
+  const LimitsSetting room(load_scenario(
+      "smoke",
+      {"cameras.0.width_px=16", "cameras.0.height_px=12", "planner.validity.collision_radius_m=0.4",
+       "obstacles=[{box_m: {min: [-4, -4, 0], max: [4, -3.9, 5]}}, "
+       "{box_m: {min: [-4, 3.9, 0], max: [4, 4, 5]}}, "
+       "{box_m: {min: [-4, -3.9, 0], max: [-3.9, 3.9, 5]}}, "
+       "{box_m: {min: [3.9, -3.9, 0], max: [4, 3.9, 5]}}]"}));
+  const ViewSurvey found = survey_views(room.scenario, room.scene, room.legal, room.reference, 2);
+  EXPECT_LE(found.views.size(), kManySurveyedViews);
+  EXPECT_GT(found.views.size(), kManySurveyedViews / 8);
+  const std::size_t even = std::ranges::count_if(room.legal.cell, [](const auto& cell) {
+    return cell[0] % 2 == 0 && cell[1] % 2 == 0 && cell[2] % 2 == 0;
+  });
+  EXPECT_GT(7 * even, kManySurveyedViews) << "else it shows nothing";
+  for (const SurveyedView& view : found.views) {
+    for (const std::int32_t c : room.legal.cell[view.position]) ASSERT_EQ(c % 3, 0);
+  }
+}
+
 TEST(ViewSurvey, SkipsNoPositionWhereCamerasReachNoFartherThanFourSteps) {
   const Scenario near_sighted = load_scenario("smoke", {"cameras.0.range_max_m=2.5"});
   const auto looks_from_odd_cells = [&](double step_m) {
