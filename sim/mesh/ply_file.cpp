@@ -191,21 +191,25 @@ std::vector<Vec3f> read_ply_points(const std::filesystem::path& path, const Vec3
                                    std::vector<std::string>& warnings) {
   PlyFile ply(path);
   std::vector<Vec3f> points;
-  bool is_read_out = true;
   const std::vector<PlyElement>& all = ply.elements();
-  for (const PlyElement& element : all) {
-    const bool is_vertices = element.name == "vertex" && !element.properties.empty();
-    const Columns xyz = is_vertices ? xyz_of(ply, element) : Columns{};
-    if (is_vertices) points.reserve(ply.most_items(element));
-    ply.for_each_item(element, [&](const PlyItem& item) {
-      if (is_vertices) points.push_back((three_of(item, xyz) + offset_m).cast<float>());
+  const auto is_points = [](const PlyElement& element) {
+    return element.name == "vertex" && !element.properties.empty();
+  };
+  const auto behind = std::find_if(all.rbegin(), all.rend(), is_points).base();
+  for (auto at = all.begin(); at != behind; ++at) {
+    const Columns xyz = is_points(*at) ? xyz_of(ply, *at) : Columns{};
+    if (is_points(*at)) points.reserve(ply.most_items(*at));
+    ply.for_each_item(*at, [&](const PlyItem& item) {
+      if (is_points(*at)) points.push_back((three_of(item, xyz) + offset_m).cast<float>());
     });
-    if (!is_vertices || ply.is_free()) continue;
-    is_read_out = std::all_of(&element + 1, all.data() + all.size(),
-                              [](const PlyElement& later) { return later.count == 0; });
-    break;
   }
-  if (is_read_out) ply.warn_of_rest(warnings);
+  try {
+    for (auto at = behind; at != all.end(); ++at) ply.for_each_item(*at, [](const PlyItem&) {});
+    ply.warn_of_rest(warnings);
+  } catch (const BadInput& fault) {
+    if (ply.is_free()) throw;
+    warnings.push_back(fmt::format("{}; behind the vertices: points may be missing", fault.what()));
+  }
   return points;
 }
 

@@ -104,6 +104,13 @@ TEST_F(CloudFile, AMeshGivesItsVerticesWhateverItsFacesAre) {
   const fs::path cut = written("cut.ply", whole.substr(0, whole.size() - 1));
   EXPECT_EQ(read_cloud(cut), kPoints);
   EXPECT_THROW(load_mesh({.path = cut}), BadInput);
+  std::string fewer = whole;
+  fewer.replace(fewer.find("element vertex 3"), 16, "element vertex 2");
+  EXPECT_EQ(points_of("fewer.ply", fewer).size(), 2U);
+  ASSERT_EQ(warnings_.size(), 1U);
+  EXPECT_TRUE(says(warnings_[0], {"fewer.ply", "points may be missing"}));
+  EXPECT_EQ(points_of("mesh.ply", whole), kPoints);
+  EXPECT_TRUE(warnings_.empty());
 }
 
 TEST_F(CloudFile, WhatIsNotANumberStaysForTheJudge) {
