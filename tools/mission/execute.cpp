@@ -61,6 +61,21 @@ void need_saved_profile(const Scenario& scenario) {
   for (const std::string& note : notes) say(note);
 }
 
+/// That the structure can be scored, and flown around from the start; tells what that is.
+void need_room_to_fly(const Scenario& scenario, const World& world, const RayScene& scene,
+                      int threads, bool is_quiet) {
+  need_room_for(scenario.score.sizes_m, world.structure);
+  const ViewPose start = start_pose(scenario, scene);
+  need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
+  need_way_up(scenario, world, scene, start);
+  const std::string moved = moved_start_note(scenario, start);
+  if (!moved.empty() && !is_quiet) say(moved);
+  if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
+    say(warning);
+  }
+  need_saved_profile(scenario);
+}
+
 /// Who flies given views needs some.
 void need_views(const Scenario& scenario, bool are_asked_for) {
   if (are_asked_for || !traits_of(scenario.planner).takes_views) return;
@@ -128,7 +143,6 @@ class RunRecorder final : public MissionObserver {
   const Progress& show_progress_;
 };
 
-/// `--frames`.
 class FramesRecorder final : public MissionObserver {
  public:
   FramesRecorder(const fs::path& run, const Scenario& scenario)
@@ -140,6 +154,45 @@ class FramesRecorder final : public MissionObserver {
 
  private:
   FramesFolder folder_;
+};
+
+/// All that keeps a mission's record, and who gives it views: connected to its inputs by the
+/// options. Keeps references to all but the inputs.
+struct Attached {
+  Attached(const Scenario& scenario, const MissionOptions& options,
+           const SurfaceReference& reference, const UserPlanner* asked,
+           const Progress& show_progress, RunDirectory& directory, MissionInputs& inputs)
+      : planned(scenario), recorder(scenario, directory, show_progress) {
+    inputs.replay = directory.recorded_decisions();
+    inputs.observers = {&recorder};
+    if (options.candidates) {
+      decisions.emplace(scenario, directory.path(), directory.recorded().size());
+      inputs.observers.push_back(&*decisions);
+    }
+    if (options.frames) {
+      inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
+    }
+    if (options.piped_views) {
+      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr,
+                   options.views_fault)
+          .connect(inputs);
+    }
+    if (asked != nullptr) planner.emplace(*asked, scenario, options.rounds_views).connect(inputs);
+    if (options.observer != nullptr) inputs.observers.push_back(options.observer);
+  }
+
+  /// With the views that were given, which fly the mission again.
+  Scenario as_flown(Termination end) const {
+    if (pipe) return pipe->scenario();
+    return planner ? planner->repeatable(end) : planned;
+  }
+
+  const Scenario& planned;
+  RunRecorder recorder;
+  std::optional<DecisionLog> decisions;
+  std::optional<FramesRecorder> frames;  // `--frames`
+  std::optional<ViewPipe> pipe;
+  std::optional<UserPlannerLink> planner;
 };
 
 /// The folder of the mission, which nobody else flies into until it is over.
@@ -189,16 +242,7 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   const World world = load_world(scenario, warnings);
   for (const std::string& warning : warnings) say(warning);
   const RayScene scene(world);
-  need_room_for(scenario.score.sizes_m, world.structure);
-  const ViewPose start = start_pose(scenario, scene);
-  need_way_out(scenario, scene, bounds_m(world.structure), start, threads);
-  need_way_up(scenario, world, scene, start);
-  const std::string moved = moved_start_note(scenario, start);
-  if (!moved.empty() && !options.quiet) say(moved);
-  if (const std::string warning = profile_warning(scenario, scene, start); !warning.empty()) {
-    say(warning);
-  }
-  need_saved_profile(scenario);
+  need_room_to_fly(scenario, world, scene, threads, options.quiet);
   if (options.frames) need_cameras(scenario);
   const UserScores user_scores = start_user_utility(scenario.planner.utility);
   const std::unique_ptr<UserPlanner> in_file = start_user_planner(scenario, threads);
@@ -220,52 +264,24 @@ ExecutedMission execute_mission(const Scenario& asked, const MissionOptions& opt
   RunDirectory directory(claim.folder(), scenario, options.resume);
   write_inputs(directory.path(), as_begun);
   try {
-    RunRecorder recorder(scenario, directory, show_progress);
-    MissionInputs inputs = {.observers = {&recorder}};
+    MissionInputs inputs;
     inputs.should_stop = should_stop;
     inputs.is_covered = coverage_goal(scenario.benchmark, reference, scene);
-    inputs.replay = directory.recorded_decisions();
     inputs.sources.user_scores = user_scores;
     inputs.sources.route = std::move(route);
-    std::optional<DecisionLog> decisions;
-    if (options.candidates) {
-      inputs.observers.push_back(
-          &decisions.emplace(scenario, directory.path(), directory.recorded().size()));
-    }
-    std::optional<FramesRecorder> frames;
-    if (options.frames) {
-      inputs.observers.push_back(&frames.emplace(directory.path(), scenario));
-    }
-    std::optional<ViewPipe> pipe;
-    if (options.piped_views) {
-      pipe.emplace(scenario, directory, options.frames, options.coverage ? &reference : nullptr,
-                   options.views_fault)
-          .connect(inputs);
-    }
-    std::optional<UserPlannerLink> planner;
-    if (asks_planner) {
-      planner.emplace(in_file ? *in_file : *options.planner, scenario, options.rounds_views)
-          .connect(inputs);
-    }
-    if (options.observer != nullptr) inputs.observers.push_back(options.observer);
+    const UserPlanner* const asked_planner = in_file ? in_file.get() : options.planner;
+    Attached attached(scenario, options, reference, asked_planner, show_progress, directory,
+                      inputs);
     MissionResult result = run_mission(scenario, world, scene, inputs, threads);
     directory.need_as_recorded(result);
     const Stopwatch scoring;
     show_progress(1.0, "scoring");
-    ScoredCloud cloud = scored_cloud(scenario, result);
-    cloud.region_m = scenario.score.region_m;
     MissionScore score =
-        score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
-                    MoreSizes{scenario.score.sizes_m, world, reference_config(scenario)});
-    score.is_noisy = is_noisy(scenario);
-    score.budgets = budgets_of(scenario.score);
+        score_as_asked(scenario, world, scene, reference, scored_cloud(scenario, result), threads);
     result.wall.score_s = scoring.elapsed_s();
     score.ceiling = run_ceiling(scenario, world, scene, options.ceiling, threads);
-    if (decisions) decisions->finish();  // before the summary, which says that all is there
-    const Scenario flown = pipe      ? pipe->scenario()
-                           : planner ? planner->repeatable(result.termination)
-                                     : scenario;
-    directory.finish(flown, result, score, watch.elapsed_s());
+    if (attached.decisions) attached.decisions->finish();  // the summary says that all is there
+    directory.finish(attached.as_flown(result.termination), result, score, watch.elapsed_s());
     return {directory.path(), std::move(result), score, watch.elapsed_s(), std::move(interrupt)};
   } catch (const BrokenInvariant& broken) {
     throw BrokenInvariant(fmt::format("{}\nreplay with: gnbv run {} --out REPLAY", broken.what(),

@@ -91,10 +91,6 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
   return reference;
 }
 
-Budgets budgets_of(const ScoreConfig& score) {
-  return {static_cast<double>(score.budget_views), score.budget_m, score.budget_s};
-}
-
 bool is_noisy(const Scenario& scenario) {
   return scenario.vehicle.estimate.model != EstimateModel::none ||
          std::ranges::any_of(
@@ -105,6 +101,18 @@ bool is_noisy(const Scenario& scenario) {
            return is_skewed ||
                   (lidar.range_sigma_m > 0.0 && looks_at_views(lidar, !scenario.cameras.empty()));
          });
+}
+
+MissionScore score_as_asked(const Scenario& scenario, const World& world, const RayScene& scene,
+                            const SurfaceReference& reference, ScoredCloud cloud, int threads) {
+  const ScoreConfig& asked = scenario.score;
+  cloud.region_m = asked.region_m;
+  MissionScore score =
+      score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
+                  MoreSizes{asked.sizes_m, world, reference_config(scenario)});
+  score.is_noisy = is_noisy(scenario);
+  score.budgets = {static_cast<double>(asked.budget_views), asked.budget_m, asked.budget_s};
+  return score;
 }
 
 std::optional<double> run_ceiling(const Scenario& scenario, const World& world,

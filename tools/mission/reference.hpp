@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/limits/ceiling.hpp"
+#include "bench/score/mission_score.hpp"
 #include "bench/score/run_figures.hpp"
 #include "bench/score/surface_reference.hpp"
 #include "planner/core/belief.hpp"
@@ -20,11 +21,12 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
                               int threads,
                               const std::function<void(const std::string& note)>& show = {});
 
-/// What the scenario judges mean coverage and efforts over.
-Budgets budgets_of(const ScoreConfig& score);
-
 /// Whether what looks measures with noise or is skewed in flight, or the pose is estimated.
 bool is_noisy(const Scenario& scenario);
+
+/// A cloud's score as the scenario asks for it: within its region, at its sizes, by its budgets.
+MissionScore score_as_asked(const Scenario& scenario, const World& world, const RayScene& scene,
+                            const SurfaceReference& reference, ScoredCloud cloud, int threads);
 
 /// How a ceiling is come by: read when an earlier command left it in the cache, or found anew,
 /// which may take longer than the mission.

@@ -27,23 +27,20 @@ Scored score(Scenario scenario, const World& world, const RayScene& scene, Score
   if (wish.box_m) scenario.score.region_m = *wish.box_m;
   if (!wish.sizes_m.empty()) scenario.score.sizes_m = wish.sizes_m;
   need_room_for(scenario.score.sizes_m, world.structure);
-  cloud.region_m = scenario.score.region_m;
   ProgressBar bar("score", wish.is_quiet);
   bar.show(0.0, "finding what there is to see");
   const SurfaceReference reference = reference_of(
       scenario, world, scene, threads, [&](const std::string& note) { bar.show(0.0, note); });
   const double reference_s = watch.elapsed_s();
   bar.show(0.2, fmt::format("comparing {} points", grouped(cloud.points_world_m.size())));
+  const std::size_t points = cloud.points_world_m.size();
   Scored scored{
-      .score = score_cloud(reference, scene, cloud, scenario.planner.map.resolution_m, threads,
-                           MoreSizes{scenario.score.sizes_m, world, reference_config(scenario)}),
+      .score = score_as_asked(scenario, world, scene, reference, std::move(cloud), threads),
       .sizes_m = scenario.score.sizes_m,
       .structure = structure_name(scenario.structure),
-      .points = cloud.points_world_m.size(),
+      .points = points,
       .floor_z_m = scenario.planner.floor_z_m,
       .reference_s = reference_s};
-  scored.score.budgets = budgets_of(scenario.score);
-  scored.score.is_noisy = is_noisy(scenario);
   scored.score_s = watch.elapsed_s() - reference_s;
   return scored;
 }
