@@ -132,6 +132,7 @@ struct Structures {
     std::vector<RunInput> inputs = {};  // that it is made of
   };
   std::vector<page::MeshData> meshes;  // each once
+  std::vector<page::MoverData> movers;
   std::vector<OfRun> of_run;
 };
 

@@ -62,6 +62,17 @@ struct MeshData {
 };
 GNBV_PAGE_FIELDS(MeshData, vertices, colours, all_faces, parts, surface)
 
+/// A body that goes straight from corner to corner of its way, and stays at the last one or, where
+/// the way is a loop, goes around again.
+struct MoverData {
+  int mesh = -1;  // among which structure, into PageData
+  MeshData shape = {};
+  std::vector<Vec3d> way = {};  // offsets from where the shape is, from 0 on
+  double speed_m_s = 0.0;
+  bool is_loop = false;
+};
+GNBV_PAGE_FIELDS(MoverData, mesh, shape, way, speed_m_s, is_loop)
+
 struct CameraData {
   std::string name = {};
   double fov_x = 0.0;  // radians
@@ -264,8 +275,9 @@ struct PageData {
   std::vector<Table> tables = {};
   std::vector<Plot> plots = {};
   std::vector<MeshData> meshes = {};
+  std::vector<MoverData> movers = {};
   std::vector<RunData> runs = {};
 };
-GNBV_PAGE_FIELDS(PageData, title, is_live, version, scene, tables, plots, meshes, runs)
+GNBV_PAGE_FIELDS(PageData, title, is_live, version, scene, tables, plots, meshes, movers, runs)
 
 }  // namespace gnbv::page

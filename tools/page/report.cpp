@@ -215,6 +215,7 @@ Report make_report(std::vector<RunRecord> records, const ReportOptions& options,
     report.missing.insert(report.missing.end(), run.missing.begin() + known, run.missing.end());
   }
   page.meshes = std::move(structures.meshes);
+  page.movers = std::move(structures.movers);
   // names may hold anything, also what is no UTF-8
   const std::string json = nlohmann::ordered_json(page).dump(
       -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

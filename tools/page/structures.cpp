@@ -108,6 +108,23 @@ page::MeshData pack_mesh(const TriangleMesh& mesh, std::size_t max_bytes, page::
   }
 }
 
+namespace {
+
+/// The bodies that move around a structure.
+void pack_movers(const Structures::OfRun& structure, std::size_t max_bytes, page::Arrays& arrays,
+                 std::vector<page::MoverData>& movers) {
+  for (const MovingBody& body : structure.known->world.movers) {
+    page::MoverData& mover = movers.emplace_back();
+    mover.mesh = structure.number;
+    mover.shape = pack_mesh(body.mesh, max_bytes, arrays);
+    for (const Vec3& m : body.motion.corners_m()) mover.way.push_back({m.x(), m.y(), m.z()});
+    mover.speed_m_s = body.motion.speed_m_s;
+    mover.is_loop = body.motion.loop;
+  }
+}
+
+}  // namespace
+
 Structures pack_structures(const std::vector<RunRecord>& records, int threads,
                            page::Arrays& arrays) {
   std::map<std::string, Structures::OfRun> known;
@@ -126,6 +143,7 @@ Structures pack_structures(const std::vector<RunRecord>& records, int threads,
         structure.inputs = world_inputs(record.scenario, structure.known->world);
         structure.number = static_cast<int>(out.meshes.size());
         out.meshes.push_back(pack_mesh(all_meshes(structure.known->world), max_bytes, arrays));
+        pack_movers(structure, max_bytes, arrays, out.movers);
         if (const TrueVoxels& voxels = structure.known->to_find; !voxels.codes.empty()) {
           out.meshes.back().surface = {.size_m = voxels.size_m,
                                        .index = arrays.add<3>(voxel_indices(voxels))};

@@ -360,9 +360,20 @@ async function printsAtOnce() {
   await page.browser.call("Page.removeScriptToEvaluateOnNewDocument", { identifier });
 }
 
+/** To and fro by 2 m along x, at 0.37 m/s. */
+async function bodiesMove() {
+  await page.go("#layers=structure,path");
+  for (const [i, { time_s }] of csv(runs[0], "iterations.csv").entries()) {
+    await page.seek(i + 1);
+    const along = 0.37 * Number(time_s) % 4;
+    const [x, y, z] = await page.is("gnbv.scenes[0].movers[0].object.position.toArray()");
+    assert.ok(Math.abs(x - Math.min(along, 4 - along)) < 0.01 && y === 0 && z === 0, `${x}`);
+  }
+}
+
 const hasLine = isAlone && existsSync(join(runs[0], "surface"));
 const checks = [gistIsLikeTheWhole, foundIsCoverage, decisionsAreTold, pointingTells,
-  ...hasLine ? [lineParts] : [], legendsTell, plotsTellRunsApart, linksShow, filesAreSaved,
+  ...hasLine ? [lineParts] : [], ...only.includes("bodiesMove") ? [bodiesMove] : [], legendsTell, plotsTellRunsApart, linksShow, filesAreSaved,
   fitsAnyPaper, printsAtOnce];
 const asked = checks.filter(({ name }) => only.length === 0 || only.includes(name));
 assert.ok(asked.length >= Math.max(1, only.length), `no such check: ${only}`);

@@ -40,9 +40,10 @@ layers() { node "$here/page_layers_test.mjs" "$CHROMIUM" "$@"; }
 layers equal.html seed1 again --only foundIsCoverage plotsTellRunsApart
 layers lab.html lab --only decisionsAreTold
 "$gnbv" run smoke --quiet --frames --candidates --out bursts \
-  --set planner.fvs.entropy_threshold_nat=1 --set planner.termination.max_iterations=8 >/dev/null
+  --set planner.fvs.entropy_threshold_nat=1 --set planner.termination.max_iterations=8 \
+  --set "obstacles=[{box_m: {min: [-3.9, 3.7, 0], max: [-3.7, 3.9, 0.3]}, motion: {waypoints: [{offset_m: [2, 0, 0]}], speed_m_s: 0.37}}]" >/dev/null
 "$gnbv" report bursts --quiet -o bursts.html >/dev/null
-layers bursts.html bursts --only decisionsAreTold
+layers bursts.html bursts --only decisionsAreTold bodiesMove
 layers seeds.html seed1 seed2 --only foundIsCoverage decisionsAreTold plotsTellRunsApart
 for test in page_test page_layers_test; do
   node "$here/$test.mjs" "$CHROMIUM" one.html "${evil}proposed"

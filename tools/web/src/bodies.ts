@@ -2,7 +2,7 @@
 import * as three from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { colourOf } from "./colours";
-import type { MeshData, RunData } from "./data";
+import type { MeshData, MoverData, RunData } from "./data";
 import { kMarkLayer, kSurfaceLayer } from "./painter";
 
 /** The structure as its mesh has it: solid, or a ghost under what was measured of it. */
@@ -39,6 +39,29 @@ export class Structure {
       mesh.layers.set(isGhost ? kMarkLayer : kSurfaceLayer);
       mesh.renderOrder = isGhost ? -1 : 0; // under the marks
     }
+  }
+}
+
+/** Of a body that is `along` metres on its way: how far from where it stood. */
+function offsetOn({ way, is_loop }: MoverData, along: number): three.Vector3 {
+  const corners = way.map((corner) => new three.Vector3(...corner));
+  const edges = corners.slice(1).map((to, i) => to.clone().sub(corners[i]));
+  const round = edges.reduce((sum, edge) => sum + edge.length(), 0);
+  let left = is_loop && round > 0 ? along % round : along;
+  for (const [i, edge] of edges.entries()) {
+    if (left < edge.length()) return corners[i].addScaledVector(edge, left / edge.length());
+    left -= edge.length();
+  }
+  return corners[corners.length - 1];
+}
+
+/** A body on its way among what stands there. */
+export class MovingBody extends Structure {
+  constructor(private readonly data: MoverData) { super(data.shape); }
+
+  /** Where it was that many seconds after the take-off. */
+  show(time: number) {
+    this.object.position.copy(offsetOn(this.data, this.data.speed_m_s * time));
   }
 }
 

@@ -23,7 +23,7 @@ function build() {
     document.documentElement.style.setProperty(`--run-${i}`, cssOnPage(colour)));
   const clock = new Clock();
   const flights = page.runs.map((run, i) => new Flight(run, i, clock));
-  const scenes = flights.map((flight) => new RunScene(flight, page.meshes[flight.data.mesh]));
+  const scenes = flights.map((flight) => new RunScene(flight, page));
   const stage = Stage.make(scenes, clock, fileName(page.title));
   const isAlone = flights.length === 1;
   const plots = new Plots(page.plots, clock);

@@ -1,8 +1,8 @@
 // The scene of one run: what is there, and what of it shows at a moment of the replay.
 import * as three from "three";
-import { Structure, makeVehicle, readRunSurface } from "./bodies";
+import { MovingBody, Structure, makeVehicle, readRunSurface } from "./bodies";
 import { hairline } from "./colours";
-import type { MeshData, RunData } from "./data";
+import type { MeshData, PageData, RunData } from "./data";
 import { BelievedMarks, CandidateMarks } from "./decisions";
 import type { Flight } from "./flight";
 import { FrustaMark, PathMark, PlanMark, SightMark } from "./marks";
@@ -35,6 +35,7 @@ export class RunScene {
   readonly vehicle = new three.Group(); // at the vehicle's pose
   readonly model: Model;
   readonly structure: Structure | null;
+  readonly movers: MovingBody[];
   readonly frusta: FrustaMark;
   readonly plan: PlanMark | null;
   readonly surface: TrueSurface | null;
@@ -49,10 +50,13 @@ export class RunScene {
   private layers: Layers = {};
   private readonly splats = new Splats();
 
-  constructor(readonly flight: Flight, mesh: MeshData | undefined) {
+  constructor(readonly flight: Flight, { meshes, movers }: PageData) {
     const data = flight.data;
+    const mesh: MeshData | undefined = meshes[data.mesh];
     this.model = new Model(data);
     this.structure = mesh ? new Structure(mesh) : null;
+    this.movers = movers.filter((mover) => mover.mesh === data.mesh)
+      .map((mover) => new MovingBody(mover));
     this.path = new PathMark(flight);
     this.frusta = new FrustaMark(flight);
     this.plan = data.plan && new PlanMark(flight);
@@ -73,7 +77,8 @@ export class RunScene {
       this.candidates?.object, this.believed?.object,
       data.has_ground ? makeGround(data) : null].filter((mark) => !!mark);
     for (const mark of marks) mark.traverse((part) => part.layers.set(kMarkLayer));
-    this.scene.add(sun, sky, ...[this.structure?.object, this.model.voxels, this.runSurface,
+    this.scene.add(sun, sky, ...this.movers.map(({ object }) => object),
+      ...[this.structure?.object, this.model.voxels, this.runSurface,
       this.splats.object, ...marks].filter((part) => !!part));
     this.scene.traverse((part) => { part.frustumCulled = false; });
   }
@@ -104,10 +109,10 @@ export class RunScene {
 
   /** Left of that line the structure, right of it the surface, alone; else all as chosen. */
   showSide(side: Side) {
-    const { layers, structure, runSurface, model } = this;
-    if (structure) {
-      structure.object.visible = side === "truth" || (side === "all" && layers.structure);
-      structure.setGhost(side !== "truth" && kMeasured.some((layer) => layers[layer]));
+    const { layers, structure, movers, runSurface, model } = this;
+    for (const body of structure ? [structure, ...movers] : []) {
+      body.object.visible = side === "truth" || (side === "all" && layers.structure);
+      body.setGhost(side !== "truth" && kMeasured.some((layer) => layers[layer]));
     }
     if (runSurface) runSurface.visible = side !== "truth" && layers.surface;
     model.showsPoints = side === "all" && layers.cloud;
@@ -136,6 +141,7 @@ export class RunScene {
     const { flight, model, surface, layers: { path, profile } } = this;
     const { n } = flight;
     model.show(n);
+    for (const mover of this.movers) mover.show(flight.time());
     // where there is no path yet, that of the profile leads to the vehicle
     this.path.show(flight.samplesBy(flight.time()), profile || (path && n === 0), path);
     this.frusta.show(n);
