@@ -142,6 +142,10 @@ def test_a_mission_that_ends_before_it_explored_says_why(run, tmp_path):
     away = ("run smoke --quiet --set 'start={position_m: [0, -3.9, 4.5], yaw_deg: -90, "
             "jitter_m: [0, 0, 0]}' --out ")
     run(f'{away}tour --utility tour --preset takeoff', 'no view pays', 'planner.tour.explore: true')
+    few = run('run smoke --quiet --out few --utility tour --preset takeoff '
+              '--set planner.tour.price=3 --set planner.tour.end_price=1')
+    assert json_of(tmp_path / 'few/summary.json')['iterations'] == 1
+    assert 'explored' not in few.err, 'it found a third of the structure'
     run(f'{away}out --set planner.fvs.enabled=false --set planner.agvs.scales=false '
         '--set planner.profiling.method=none',
         'ended after 1 view, before it explored', 'outside the workspace', 'what helps: ')

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kFewViews = 20;
 constexpr double kExplored = 0.8;  // coverage at 0.05 m
+constexpr double kFound = 0.3;     // likewise: a tour that found the structure knows when it ends
 
 /// What a rejection means, and what helps, in the order of Rejection.
 struct RejectionText {
@@ -84,7 +85,9 @@ std::string early_end_note(const MissionResult& result, double coverage,
   // of a laid route no view that could be flown to is left: it was flown
   const bool has_route = result.termination == Termination::no_valid_view && planner.lays_views &&
                          result.last_rejections.empty();
-  if (views >= kFewViews || coverage >= kExplored || has_route) return "";
+  const bool is_tour = result.termination == Termination::tour_complete;
+  const double enough = is_tour ? kFound : kExplored;
+  if (views >= kFewViews || coverage >= enough || has_route) return "";
   const std::string after = fmt::format(
       "the mission ended after {} view{}, before it explored: ", views, views == 1 ? "" : "s");
   switch (result.termination) {
