@@ -14,7 +14,7 @@
 
 namespace gnbv {
 
-/// More make hours of a large hall: the aircraft has 3,100.
+/// Of a hall more took over 18 minutes of one core. The aircraft has 3,100.
 constexpr std::size_t kManySurveyedViews = 8000;
 
 struct SurveyedView {
