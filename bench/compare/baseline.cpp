@@ -77,9 +77,8 @@ void need_same(const BaselineSubject& was, const BaselineSubject& is, const fs::
     if (then.sha256 != now.sha256) add(key, told(then), told(now));
   }
   if (differences.empty()) return;
-  throw BadInput(
-      fmt::format("{}: is of something else than the run; to gate that from now on, {}:{}",
-                  path.string(), how_to_renew(path), differences));
+  throw BadInput("{}: is of something else than the run; to gate that from now on, {}:{}",
+                 path.string(), how_to_renew(path), differences);
 }
 
 GateVerdict judge(const BaselineMetric& metric, double now) {
@@ -96,9 +95,8 @@ std::vector<MetricChange> changes_of(const std::vector<BaselineMetric>& baseline
   for (const BaselineMetric& metric : baseline) {
     const auto now = std::ranges::find(all, metric.name, &BaselineMetric::name);
     if (now == all.end()) {
-      throw BadInput(
-          fmt::format("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
-                      path.string(), metric.name));
+      throw BadInput("{}: metrics.{}: the run was not scored at that size; score.sizes_m names it",
+                     path.string(), metric.name);
     }
     changes.push_back({metric, now->value, judge(metric, now->value)});
   }

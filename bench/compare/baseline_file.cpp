@@ -34,7 +34,7 @@ class File {
  public:
   explicit File(const fs::path& path)
       : path_(path), json_(Json::parse(read_file(path), nullptr, false)) {
-    if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
+    if (!json_.is_object()) throw BadInput("{}: is no JSON object", path_.string());
     const std::string schema = text({"schema"});
     if (schema != kSchema) {
       refuse({"schema"}, fmt::format("is not \"{}\": {}", kSchema, how_to_renew(path_)));
@@ -62,7 +62,7 @@ class File {
     const Json* value = &json_;
     for (const std::string& key : keys) {
       if (!value->is_object() || !value->contains(key)) {
-        throw BadInput(fmt::format("{}: {}: is missing", path_.string(), fmt::join(keys, ".")));
+        throw BadInput("{}: {}: is missing", path_.string(), fmt::join(keys, "."));
       }
       value = &value->at(key);
     }
@@ -103,7 +103,7 @@ class File {
     const std::string shown = value.is_array()    ? "a list"
                               : value.is_object() ? "an object"
                                                   : value.dump();
-    throw BadInput(fmt::format("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), shown, what));
+    throw BadInput("{}: {}: {} {}", path_.string(), fmt::join(keys, "."), shown, what);
   }
 
   fs::path path_;

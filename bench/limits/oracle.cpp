@@ -262,11 +262,11 @@ KnownRoute plan_oracle(const Scenario& scenario, const World& world, const RaySc
                        const HeedStop& stop) {
   LegalViewpoints legal = find_legal_viewpoints(scenario, scene, start, threads, stop);
   if (legal.size() == 0) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "start.position_m: from [{}, {}, {}] no way leads to any other place that keeps "
         "planner.validity.collision_radius_m = {} from the structure: an oracle has no views",
         start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(),
-        scenario.planner.validity.collision_radius_m));
+        scenario.planner.validity.collision_radius_m);
   }
   const auto oracle = std::make_shared<Oracle>(scenario, world, scene, reference, start,
                                                std::move(legal), threads, stop);

@@ -34,15 +34,13 @@ OctomapTwin OctomapTwin::read(const std::filesystem::path& path) {
   auto tree = std::make_unique<Tree>(0.1);
   if (path.extension() == ".bt") {
     if (!tree->octree.readBinary(path.string())) {
-      throw BadInput(fmt::format("{}: OctoMap cannot read it", path.string()));
+      throw BadInput("{}: OctoMap cannot read it", path.string());
     }
     return OctomapTwin(std::move(tree));
   }
   const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read(path.string()));
   auto* octree = dynamic_cast<octomap::OcTree*>(read.get());
-  if (octree == nullptr) {
-    throw BadInput(fmt::format("{}: OctoMap cannot read it", path.string()));
-  }
+  if (octree == nullptr) throw BadInput("{}: OctoMap cannot read it", path.string());
   tree->octree.swapContent(*octree);
   tree->octree.setResolution(octree->getResolution());
   return OctomapTwin(std::move(tree));

@@ -62,8 +62,8 @@ std::string text_of(const Box3& box_m) {
 [[noreturn]] void refuse(const std::string& name, std::span<const Vec3f> cloud_world_m,
                          std::size_t i, std::string_view what) {
   const Vec3f& p = cloud_world_m[i];
-  throw BadInput(fmt::format("{}: point {} (counted from 0) is ({}, {}, {}) m: {}", name, i, p.x(),
-                             p.y(), p.z(), what));
+  throw BadInput("{}: point {} (counted from 0) is ({}, {}, {}) m: {}", name, i, p.x(), p.y(),
+                 p.z(), what);
 }
 
 void need_finite(const std::string& name, std::span<const Vec3f> cloud_world_m) {
@@ -89,11 +89,9 @@ void need_near(const std::string& name, std::span<const Vec3f> cloud_world_m, co
   if (std::any_of(cloud_world_m.begin(), cloud_world_m.end(), is_near)) return;
   Box3 cloud_m;
   for (const Vec3f& p_m : cloud_world_m) cloud_m.extend(p_m.cast<double>());
-  throw BadInput(
-      fmt::format("{}: no point within {} m of the mesh: the cloud spans {}, the mesh "
-                  "{}: {}",
-                  name, kFarthest_m, text_of(cloud_m), text_of(structure_m),
-                  guess(cloud_m.center(), extent_m(cloud_world_m), structure_m.diagonal().norm())));
+  throw BadInput("{}: no point within {} m of the mesh: the cloud spans {}, the mesh {}: {}", name,
+                 kFarthest_m, text_of(cloud_m), text_of(structure_m),
+                 guess(cloud_m.center(), extent_m(cloud_world_m), structure_m.diagonal().norm()));
 }
 
 }  // namespace
@@ -109,7 +107,7 @@ void need_voxels(const std::string& name, std::span<const Vec3f> cloud_world_m,
 std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3f> cloud_world_m,
                                    double floor_z_m, const RayScene& scene, const Box3& structure_m,
                                    double smallest_voxel_m) {
-  if (cloud_world_m.empty()) throw BadInput(fmt::format("{}: has no points", name));
+  if (cloud_world_m.empty()) throw BadInput("{}: has no points", name);
   need_finite(name, cloud_world_m);
   const auto is_below = [&](const Vec3f& p_m) {
     return static_cast<double>(p_m.z()) < floor_z_m - kCoverReach_m;
@@ -118,8 +116,8 @@ std::vector<Vec3f> scorable_points(const std::string& name, std::span<const Vec3
   std::remove_copy_if(cloud_world_m.begin(), cloud_world_m.end(), std::back_inserter(points_m),
                       is_below);
   if (points_m.empty()) {
-    throw BadInput(fmt::format("{}: all {} points lie below z = {} m: nothing there is asked for",
-                               name, cloud_world_m.size(), floor_z_m));
+    throw BadInput("{}: all {} points lie below z = {} m: nothing there is asked for", name,
+                   cloud_world_m.size(), floor_z_m);
   }
   need_near(name, points_m, scene, structure_m);
   for (std::size_t i = 0; i < cloud_world_m.size(); ++i) {

@@ -172,7 +172,7 @@ std::uint64_t cache_limit_bytes() {
   std::uint64_t bytes = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw BadInput(fmt::format("GNBV_CACHE_LIMIT={}: has to be a whole number of bytes", text));
+    throw BadInput("GNBV_CACHE_LIMIT={}: has to be a whole number of bytes", text);
   }
   return bytes;
 }

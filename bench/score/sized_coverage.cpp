@@ -40,10 +40,10 @@ void need_room_for(std::span<const double> sizes_m, const TriangleMesh& structur
     const double samples = area_m2 / (spacing_m * spacing_m);
     if (samples <= kMostSamples || papers_size(size_m)) continue;
     const double fits_m = std::ceil(1e3 * size_m * std::sqrt(samples / kMostSamples)) / 1e3;
-    throw BadInput(fmt::format(
+    throw BadInput(
         "score.sizes_m or --resolution {}: {:.0f} m2 of surface take {:.0f} million samples at "
         "voxels of that size, of which there is memory for {:.0f}: {} m fits",
-        size_m, area_m2, 1e-6 * samples, 1e-6 * kMostSamples, fits_m));
+        size_m, area_m2, 1e-6 * samples, 1e-6 * kMostSamples, fits_m);
   }
 }
 

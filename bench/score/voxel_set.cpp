@@ -121,9 +121,9 @@ VoxelSet voxels_of(std::span<const Vec3f> points_world_m, double size_m) {
     const std::optional<std::uint64_t> code = find_code(p, 1.0 / size_m);
     if (!code) {
       throw BadInput(
-          fmt::format("cloud: point {} (counted from 0) is ({}, {}, {}) m: not finite or "
-                      "too far from the origin",
-                      i, p.x(), p.y(), p.z()));
+          "cloud: point {} (counted from 0) is ({}, {}, {}) m: not finite or too far from the "
+          "origin",
+          i, p.x(), p.y(), p.z());
     }
     if (codes.empty() || codes.back() != *code) codes.push_back(*code);
   }

@@ -103,8 +103,8 @@ std::vector<Standing> standings(const Suite& suite, const std::vector<Submission
     need_of_suite(entry, suite);
     for (const Standing& other : sorted) {
       if (other.entry->name != entry.name) continue;
-      throw BadInput(fmt::format("{}, {}: two entries of the name '{}'", other.entry->file.string(),
-                                 entry.file.string(), entry.name));
+      throw BadInput("{}, {}: two entries of the name '{}'", other.entry->file.string(),
+                     entry.file.string(), entry.name);
     }
     sorted.push_back({&entry});
   }

@@ -90,11 +90,11 @@ struct Reader {
   const std::string& place;  // file and member, as faults begin
 
   const Json& at(const char* key, bool (Json::*is_one)() const noexcept, const char* what) const {
-    if (!json.is_object()) throw BadInput(fmt::format("{}: expects an object", place));
+    if (!json.is_object()) throw BadInput("{}: expects an object", place);
     const auto found = json.find(key);
-    if (found == json.end()) throw BadInput(fmt::format("{}: {}: is missing", place, key));
+    if (found == json.end()) throw BadInput("{}: {}: is missing", place, key);
     if ((*found.*is_one)()) return *found;
-    throw BadInput(fmt::format("{}: {}: expects {}", place, key, what));
+    throw BadInput("{}: {}: expects {}", place, key, what);
   }
   void operator()(const char* key, std::string& value) const {
     value = at(key, &Json::is_string, "a text").get<std::string>();
@@ -112,7 +112,7 @@ struct Reader {
   }
   void operator()(const char* key, int& value) const {
     const auto count = at(key, &Json::is_number_unsigned, "a whole number").get<std::uint64_t>();
-    if (count > 1'000'000) throw BadInput(fmt::format("{}: {}: is too large", place, key));
+    if (count > 1'000'000) throw BadInput("{}: {}: is too large", place, key);
     value = static_cast<int>(count);
   }
   void operator()(const char* key, EntryKind& kind) const {
@@ -120,15 +120,13 @@ struct Reader {
     (*this)(key, name);
     const auto* const known = std::ranges::find(kEntryKindNames, name);
     if (known == kEntryKindNames.end()) {
-      throw BadInput(fmt::format("{}: {}: expects planner or views", place, key));
+      throw BadInput("{}: {}: expects planner or views", place, key);
     }
     kind = static_cast<EntryKind>(known - kEntryKindNames.begin());
   }
   void operator()(const char* key, std::vector<std::string>& texts) const {
     for (const Json& text : at(key, &Json::is_array, "a list of texts")) {
-      if (!text.is_string()) {
-        throw BadInput(fmt::format("{}: {}: expects a list of texts", place, key));
-      }
+      if (!text.is_string()) throw BadInput("{}: {}: expects a list of texts", place, key);
       need_text(place, key, texts.emplace_back(text.get<std::string>()));
     }
   }
@@ -179,7 +177,7 @@ SubmittedMission mission_of(const Json& json, const std::string& place) {
   visit_figures(mission.figures, read);
   read("trajectory_sha256", mission.trajectory_sha256);
   for (const auto& [name, hash] : read.at("files", &Json::is_object, "an object").items()) {
-    if (!hash.is_string()) throw BadInput(fmt::format("{}: files: expects hashes", place));
+    if (!hash.is_string()) throw BadInput("{}: files: expects hashes", place);
     need_text(place, "files", name);
     mission.files[name] = hash.get<std::string>();
   }
@@ -189,13 +187,13 @@ SubmittedMission mission_of(const Json& json, const std::string& place) {
 /// All that the text says. The same text comes of it, or it was edited.
 Submission entry_of(const std::string& text, const std::string& place) {
   const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw BadInput(fmt::format("{}: is no JSON", place));
+  if (json.is_discarded()) throw BadInput("{}: is no JSON", place);
   Submission entry;
   const Reader read{json, place};
   std::string format;
   read("format", format);
   if (format != kFormat) {
-    throw BadInput(fmt::format("{}: format: value '{}': expects '{}'", place, format, kFormat));
+    throw BadInput("{}: format: value '{}': expects '{}'", place, format, kFormat);
   }
   visit_words(entry, read);
   const std::string of_figures = place + ": figures";
@@ -205,9 +203,9 @@ Submission entry_of(const std::string& text, const std::string& place) {
         mission_of(mission, fmt::format("{}: missions.{}", place, entry.missions.size())));
   }
   if (text_of(entry) != text) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: is not as `gnbv bench submit` writes it, or was edited: its {} does not fit", place,
-        kSeal));
+        kSeal);
   }
   return entry;
 }
@@ -221,25 +219,25 @@ void need_records(const Submission& entry, const std::string& place) {
     for (const auto& [file, hash] : mission.files) {
       const std::string member = member_name(mission.figures.task, file);
       if (needed.erase(file) == 0) {
-        throw BadInput(fmt::format("{}: member '{}': is no file of a mission", place, member));
+        throw BadInput("{}: member '{}': is no file of a mission", place, member);
       }
       const auto found = entry.records.find(member);
       if (found == entry.records.end()) {
-        throw BadInput(fmt::format("{}: member '{}': is missing", place, member));
+        throw BadInput("{}: member '{}': is missing", place, member);
       }
       if (hash_of(found->second) != hash) {
-        throw BadInput(fmt::format("{}: member '{}': is damaged or edited: its SHA-256 is another",
-                                   place, member));
+        throw BadInput("{}: member '{}': is damaged or edited: its SHA-256 is another", place,
+                       member);
       }
       named.insert(member);
     }
     if (needed.empty()) continue;
-    throw BadInput(fmt::format("{}: member '{}': is missing", place,
-                               member_name(mission.figures.task, *needed.begin())));
+    throw BadInput("{}: member '{}': is missing", place,
+                   member_name(mission.figures.task, *needed.begin()));
   }
   for (const auto& [member, content] : entry.records) {
     if (named.contains(member)) continue;
-    throw BadInput(fmt::format("{}: member '{}': belongs to no submission", place, member));
+    throw BadInput("{}: member '{}': belongs to no submission", place, member);
   }
 }
 
@@ -260,8 +258,8 @@ void need_own_figures(const Submission& submission, const Suite& suite) {
   visit_track(submission.figures, said);
   for (const auto& [key, value] : given.json.items()) {
     if (said.json[key] == value) continue;
-    throw BadInput(fmt::format("{}: figures.{}: value {}: its missions give {}",
-                               submission.file.string(), key, said.json[key].dump(), value.dump()));
+    throw BadInput("{}: figures.{}: value {}: its missions give {}", submission.file.string(), key,
+                   said.json[key].dump(), value.dump());
   }
 }
 
@@ -305,7 +303,7 @@ void need_text(const std::string& place, const std::string& key, const std::stri
              (text.size() != 64 || text.find_first_not_of("0123456789abcdef") != text.npos)) {
     what = "expects 64 hexadecimal digits";
   }
-  if (!what.empty()) throw BadInput(fmt::format("{}: {}: {}", place, key, what));
+  if (!what.empty()) throw BadInput("{}: {}: {}", place, key, what);
 }
 
 void write_submission(Submission submission, const fs::path& zip) {
@@ -324,8 +322,7 @@ Submission read_submission(const fs::path& zip) {
   std::map<std::string, std::string> members = read_zip(zip);
   const auto json = members.find(kSubmissionFile);
   if (json == members.end()) {
-    throw BadInput(
-        fmt::format("{}: member '{}': is missing: no submission", zip.string(), kSubmissionFile));
+    throw BadInput("{}: member '{}': is missing: no submission", zip.string(), kSubmissionFile);
   }
   Submission entry = entry_of(json->second, fmt::format("{}: {}", zip.string(), kSubmissionFile));
   members.erase(json);
@@ -339,24 +336,24 @@ void need_of_suite(const Submission& submission, const Suite& suite) {
   const std::string place = submission.file.string();
   const std::vector<SuiteTask> tasks = suite.tasks_of(submission.track);
   if (tasks.empty()) {
-    throw BadInput(fmt::format("{}: track '{}': is none of the suite; --suite FILE reads another",
-                               place, submission.track));
+    throw BadInput("{}: track '{}': is none of the suite; --suite FILE reads another", place,
+                   submission.track);
   }
   if (submission.suite_version != suite.version ||
       submission.track_sha256 != track_sha256(suite, submission.track)) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: is of another suite than this: track {} of version {} with SHA-256 {}, here version "
         "{} with {}; --suite FILE reads another",
         place, submission.track, submission.suite_version, submission.track_sha256.substr(0, 16),
-        suite.version, track_sha256(suite, submission.track).substr(0, 16)));
+        suite.version, track_sha256(suite, submission.track).substr(0, 16));
   }
   bool is_whole = submission.missions.size() == tasks.size();
   for (std::size_t i = 0; i < tasks.size() && is_whole; ++i) {
     is_whole = submission.missions[i].figures.task == tasks[i].structure;
   }
   if (!is_whole) {
-    throw BadInput(fmt::format("{}: its missions are not the {} tasks of track {} in their order",
-                               place, tasks.size(), submission.track));
+    throw BadInput("{}: its missions are not the {} tasks of track {} in their order", place,
+                   tasks.size(), submission.track);
   }
   need_own_figures(submission, suite);
 }

@@ -190,8 +190,8 @@ const SuiteTrack& Suite::track(std::string_view name) const {
     if (track.name == name) return track;
     names.push_back(track.name);
   }
-  throw BadInput(fmt::format("track '{}': is none of the suite ({}allowed: {})", name,
-                             did_you_mean(name, names), join(names)));
+  throw BadInput("track '{}': is none of the suite ({}allowed: {})", name,
+                 did_you_mean(name, names), join(names));
 }
 
 const SuiteStructure& Suite::structure_of(const SuiteTask& task) const {

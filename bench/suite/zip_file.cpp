@@ -21,7 +21,7 @@ constexpr int kMembersTime = 315532800;  // 1980-01-01, where zip's own times be
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& member, const std::string& what) {
   const std::string of = member.empty() ? "" : fmt::format(" member '{}':", printable(member));
-  throw BadInput(fmt::format("{}:{} {}", file.string(), of, what));
+  throw BadInput("{}:{} {}", file.string(), of, what);
 }
 
 struct Discard {

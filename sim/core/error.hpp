@@ -7,13 +7,24 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gnbv {
 
-/// The user's input cannot be used. The message names file, line, key and value.
-class BadInput : public std::runtime_error {
+/// An error with a message as it is, or of words and values for fmt.
+class SaidError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  template <typename... Values>
+  explicit SaidError(fmt::format_string<Values...> words,
+                     Values&&... values) requires(sizeof...(Values) > 0)
+      : std::runtime_error(fmt::format(words, std::forward<Values>(values)...)) {}
+};
+
+/// The user's input cannot be used. The message names file, line, key and value.
+class BadInput : public SaidError {
+ public:
+  using SaidError::SaidError;
 };
 
 /// The program is wrong, or a number became NaN. Caught only to report it.

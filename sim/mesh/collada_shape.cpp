@@ -329,7 +329,7 @@ std::vector<double> ColladaFile::singles(const XmlElement& element) const {
 }
 
 void ColladaFile::fail(const XmlElement& at, const std::string& what) const {
-  throw BadInput(fmt::format("{}:{}: {}", path_.string(), at.line(), what));
+  throw BadInput("{}:{}: {}", path_.string(), at.line(), what);
 }
 
 ColladaShape collada_shape(const ColladaFile& file, const XmlElement& geometry, bool wants_uvs) {

@@ -71,7 +71,7 @@ std::string json_of_glb(const GltfFile& file, const std::string& glb,
 }  // namespace
 
 void GltfFile::fail(const std::string& what) const {
-  throw BadInput(fmt::format("{}: {}", path_.string(), printable(what)));
+  throw BadInput("{}: {}", path_.string(), printable(what));
 }
 
 GltfFile::GltfFile(const std::filesystem::path& path) : path_(path) {

@@ -38,15 +38,13 @@ void check_config(const MeshFileConfig& config) {
 void check_file(const std::string& path, const std::string& extension) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) read_file(path);  // throws, with the cause
-  if (std::filesystem::file_size(path, ignored) == 0) {
-    throw BadInput(fmt::format("{}: is empty", path));
-  }
+  if (std::filesystem::file_size(path, ignored) == 0) throw BadInput("{}: is empty", path);
   if (const std::string what = what_it_is_instead(path, extension); !what.empty()) {
-    throw BadInput(fmt::format("{}: {}", path, what));
+    throw BadInput("{}: {}", path, what);
   }
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
-    throw BadInput(fmt::format("{}: '{}' is no known mesh format, only {} are", path, extension,
-                               fmt::join(kFormats, ", ")));
+    throw BadInput("{}: '{}' is no known mesh format, only {} are", path, extension,
+                   fmt::join(kFormats, ", "));
   }
 }
 
@@ -75,11 +73,10 @@ void read_polygons(const MeshFileConfig& config, bool is_obj, bool keeps_uvs,
   PolygonMesh polygons = is_obj ? read_obj(config.path, reading.warnings, keeps_uvs)
                                 : read_ply(config.path, reading.warnings);
   if (polygons.face_ends.empty()) {
-    throw BadInput(
-        fmt::format("{}: {}", config.path,
-                    polygons.lost_faces > 0
-                        ? "holds no faces: " + without_path(config.path, reading.warnings.back())
-                        : no_faces_text(polygons.vertices.size())));
+    throw BadInput("{}: {}", config.path,
+                   polygons.lost_faces > 0
+                       ? "holds no faces: " + without_path(config.path, reading.warnings.back())
+                       : no_faces_text(polygons.vertices.size()));
   }
   for (Vec3& p : polygons.vertices) {
     p = (T_world_file.topLeftCorner<3, 3>() * p + T_world_file.topRightCorner<3, 1>()).eval();
@@ -103,15 +100,14 @@ void read_scene(const MeshFileConfig& config, const std::string& extension, bool
     const std::string path = config.path + ":";
     const std::string why = reading.warnings.empty() ? "" : reading.warnings.front();
     const bool is_of_all = why.starts_with(path + " ");  // not of a line
-    throw BadInput(
-        fmt::format("{} holds no faces{}", path, is_of_all ? ":" + why.substr(path.size()) : ""));
+    throw BadInput("{} holds no faces{}", path, is_of_all ? ":" + why.substr(path.size()) : "");
   }
 }
 
 void read_links(const MeshFileConfig& config, const std::string& path, MeshReading& reading) {
   MeshReading model = read_model(path, declare(config, {1.0, 'z', true}, reading));
   if (model.mesh.faces.empty()) {
-    throw BadInput(fmt::format("{}: holds no faces: no <visual> of it has any", path));
+    throw BadInput("{}: holds no faces: no <visual> of it has any", path);
   }
   reading.mesh = std::move(model.mesh);
   reading.not_finite = std::move(model.not_finite);
@@ -183,18 +179,18 @@ TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* w
   MeshReading reading = read_mesh(config);
   if (!reading.not_finite.empty()) throw BadInput(reading.not_finite);
   if (has_lost_more(reading, config.lost_max)) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: {} faces of {} could not be used, more than its key lost_max = {} allows: {}",
         config.path, reading.lost_faces, reading.lost_faces + reading.mesh.faces.size(),
         config.lost_max,
-        reading.warnings.empty() ? "?" : without_path(config.path, reading.warnings.front())));
+        reading.warnings.empty() ? "?" : without_path(config.path, reading.warnings.front()));
   }
   if (const auto offset_m = offset_to_origin_m(reading.mesh)) {
     const Vec3 whole_m = config.offset_m + *offset_m;
     throw BadInput(
-        fmt::format("{}: lies so far from the origin that single precision loses "
-                    "millimetres: set its key offset_m to [{:.0f}, {:.0f}, {:.0f}]",
-                    config.path, whole_m.x(), whole_m.y(), whole_m.z()));
+        "{}: lies so far from the origin that single precision loses millimetres: set its key "
+        "offset_m to [{:.0f}, {:.0f}, {:.0f}]",
+        config.path, whole_m.x(), whole_m.y(), whole_m.z());
   }
   TriangleMesh& mesh = reading.mesh;
   std::size_t kept = 0;
@@ -205,7 +201,7 @@ TriangleMesh load_mesh(const MeshFileConfig& config, std::vector<std::string>* w
     mesh.face_material[kept++] = mesh.face_material[i];
   }
   const std::size_t flat = mesh.faces.size() - kept;
-  if (kept == 0) throw BadInput(fmt::format("{}: holds no faces with an area", config.path));
+  if (kept == 0) throw BadInput("{}: holds no faces with an area", config.path);
   mesh.faces.resize(kept);
   mesh.face_material.resize(kept);
   mesh.face_looks.resize(mesh.face_looks.empty() ? 0 : kept);

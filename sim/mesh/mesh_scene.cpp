@@ -22,7 +22,7 @@ class Assembly {
     const MeshScene::Part& part = scene_.parts[instance.part];
     if (part.faces.empty()) return;
     if (mesh_.faces.size() + part.faces.size() > kMostFaces) {
-      throw BadInput(fmt::format("{}: more than {} faces with all instances", path_, kMostFaces));
+      throw BadInput("{}: more than {} faces with all instances", path_, kMostFaces);
     }
     const Matrix4 T_world_part = T_world_file * instance.T_file_part;
     const bool is_mirrored = T_world_part.topLeftCorner<3, 3>().determinant() < 0.0;

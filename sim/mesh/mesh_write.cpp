@@ -111,8 +111,8 @@ void write_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
   } else if (extension == ".glb") {
     write_file_atomically(path, glb_bytes_of(mesh));
   } else {
-    throw BadInput(fmt::format("{}: meshes are written as .obj, .ply or .glb, not '{}'",
-                               path.string(), extension));
+    throw BadInput("{}: meshes are written as .obj, .ply or .glb, not '{}'", path.string(),
+                   extension);
   }
 }
 

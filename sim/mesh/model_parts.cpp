@@ -92,7 +92,7 @@ std::string value_of(const fs::path& document, const XmlElement& shape, const ch
 }  // namespace
 
 void fail_at(const fs::path& document, const XmlElement& at, const std::string& what) {
-  throw BadInput(fmt::format("{}:{}: {}", document.string(), at.line(), what));
+  throw BadInput("{}:{}: {}", document.string(), at.line(), what);
 }
 
 std::vector<double> numbers_of(const fs::path& document, const XmlElement& at,
@@ -160,7 +160,7 @@ fs::path resolved(const fs::path& document, const XmlElement& at, std::string ur
 }
 
 const ModelParts::FileMesh& ModelParts::mesh_at(const fs::path& file, bool keeps_uvs) {
-  if (is_model(file)) throw BadInput(fmt::format("{}: is no mesh of a visual", file.string()));
+  if (is_model(file)) throw BadInput("{}: is no mesh of a visual", file.string());
   const auto [entry, is_new] = meshes_.try_emplace({file.lexically_normal().string(), keeps_uvs});
   if (!is_new) return entry->second;
   const bool is_collada = extension_of(file) == ".dae";
@@ -306,8 +306,7 @@ fs::path model_file_of(const fs::path& path) {
     if (newest != versions.rend()) return path / trimmed(newest->text());
   }
   if (fs::exists(path / "model.sdf", ignored)) return path / "model.sdf";
-  throw BadInput(
-      fmt::format("{}: is a directory without model.sdf or model.config", path.string()));
+  throw BadInput("{}: is a directory without model.sdf or model.config", path.string());
 }
 
 MeshReading read_model(const fs::path& path, const Matrix4& T_world_model) {

@@ -300,7 +300,7 @@ class ObjReader {
   }
 
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw BadInput(fmt::format("{}:{}: {}", path_.string(), line, what));
+    throw BadInput("{}:{}: {}", path_.string(), line, what);
   }
 
   std::filesystem::path path_;

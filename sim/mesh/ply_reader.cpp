@@ -58,13 +58,13 @@ std::size_t PlyFile::warn_of_rest(std::vector<std::string>& warnings) {
 }
 
 void PlyFile::fail(const std::string& what) const {
-  throw BadInput(fmt::format("{}: {}", path_, printable(what)));
+  throw BadInput("{}: {}", path_, printable(what));
 }
 
 void PlyFile::fail_in_line(const std::string& what) const {
   if (lines_ && !is_text_) fail(what);  // among bytes
   const std::size_t row = lines_ ? lines_->number() : 0;
-  throw BadInput(fmt::format("{}:{}: {}", path_, header_lines_ + row, printable(what)));
+  throw BadInput("{}:{}: {}", path_, header_lines_ + row, printable(what));
 }
 
 void PlyFile::need_whole_numbers(std::span<const double> values, double least,

@@ -94,7 +94,7 @@ template <typename Index = std::uint32_t>
 Index as_index(std::size_t number, const std::string& path, std::string_view of_what) {
   constexpr std::size_t kLast = std::numeric_limits<Index>::max();
   constexpr std::size_t kMost = sizeof(Index) == sizeof(std::uint32_t) ? kLast : kLast + 1;
-  if (number >= kMost) throw BadInput(fmt::format("{}: more than {} {}", path, kMost, of_what));
+  if (number >= kMost) throw BadInput("{}: more than {} {}", path, kMost, of_what);
   return static_cast<Index>(number);
 }
 

@@ -100,7 +100,7 @@ class StlText {
   }
 
   [[noreturn]] void fail(std::string_view what) const {
-    throw BadInput(fmt::format("{}:{}: {}", path_.string(), line_, what));
+    throw BadInput("{}:{}: {}", path_.string(), line_, what);
   }
 
   const std::filesystem::path& path_;
@@ -117,8 +117,8 @@ void read_stl_bytes(const std::filesystem::path& path, std::string_view bytes, M
   const std::size_t announced = number_at<std::uint32_t>(bytes.data() + kStlHeader - 4);
   const std::size_t held = (bytes.size() - kStlHeader) / kStlTriangle;
   if (held < announced) {
-    throw BadInput(fmt::format("{}: ends after {} of the {} triangles that its header announces",
-                               path.string(), held, announced));
+    throw BadInput("{}: ends after {} of the {} triangles that its header announces", path.string(),
+                   held, announced);
   }
   MeshScene::Part& part = scene.parts.emplace_back();
   std::size_t coloured = 0;
@@ -173,9 +173,8 @@ MeshScene read_stl(const std::filesystem::path& path) {
     read_stl_bytes(path, bytes, scene);
   } else {
     throw BadInput(
-        fmt::format("{}: is no STL file: it begins without 'solid', and is no table of "
-                    "triangles either",
-                    path.string()));
+        "{}: is no STL file: it begins without 'solid', and is no table of triangles either",
+        path.string());
   }
   scene.instances.push_back({});
   return scene;

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 void need_size(std::size_t width_px, std::size_t height_px, std::size_t most_px) {
   constexpr std::size_t kMostSide = 1U << 16U;
   if (width_px <= kMostSide && height_px <= kMostSide && width_px * height_px <= most_px) return;
-  throw BadInput(fmt::format("too large ({} x {}; all of a mesh may have {} pixels)", width_px,
-                             height_px, TextureFiles::kMostPixels));
+  throw BadInput("too large ({} x {}; all of a mesh may have {} pixels)", width_px, height_px,
+                 TextureFiles::kMostPixels);
 }
 
 /// Without what it says of its colours: they are sRGB, as glTF 2.0 (3.8.4) has it.
@@ -47,7 +47,7 @@ Image read_png(std::string_view file, std::size_t most_px) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) {
-    throw BadInput(fmt::format("damaged ({})", header.message));
+    throw BadInput("damaged ({})", header.message);
   }
   const std::unique_ptr<png_image, void (*)(png_imagep)> freed(&header, png_image_free);
   need_size(header.width, header.height, most_px);
@@ -55,7 +55,7 @@ Image read_png(std::string_view file, std::size_t most_px) {
   header.format = PNG_FORMAT_RGBA;  // what lies under the alpha stays: libpng would blend it
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(header));
   if (png_image_finish_read(&header, nullptr, rgba.data(), 0, nullptr) == 0) {
-    throw BadInput(fmt::format("damaged ({})", header.message));
+    throw BadInput("damaged ({})", header.message);
   }
   Image image{static_cast<int>(header.width), static_cast<int>(header.height), {}};
   image.rgb.reserve(rgba.size() / 4 * 3);
@@ -135,7 +135,7 @@ void make_rgb(std::vector<std::uint8_t>& cmyk, bool is_inverted) {
 Image read_jpeg(std::string_view bytes, std::size_t most_px) {
   JpegReader reader(bytes);
   const auto need = [&](bool is_read) {
-    if (!is_read) throw BadInput(fmt::format("damaged ({})", reader.errors.message));
+    if (!is_read) throw BadInput("damaged ({})", reader.errors.message);
   };
   need(reader.read_header());
   need_size(reader.info.image_width, reader.info.image_height, most_px);

@@ -27,7 +27,7 @@ bool is_flat(const TriangleMesh& mesh, std::size_t face) {
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
   constexpr std::size_t kMostMaterials = std::numeric_limits<std::uint16_t>::max() + std::size_t{1};
   if (mesh.materials.size() + more.materials.size() > kMostMaterials) {
-    throw BadInput(fmt::format("the meshes have more than {} materials together", kMostMaterials));
+    throw BadInput("the meshes have more than {} materials together", kMostMaterials);
   }
   const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
   const std::size_t first_material = mesh.materials.size();

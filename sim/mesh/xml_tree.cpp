@@ -97,7 +97,7 @@ XmlTree::XmlTree(const std::filesystem::path& path, std::vector<std::string>& wa
   text = as_utf8(std::move(text));
   // entities of a file's own can stand for any amount of text
   if (text.find("<!ENTITY") != text.npos) {
-    throw BadInput(fmt::format("{}: declares entities, which are not read", path.string()));
+    throw BadInput("{}: declares entities, which are not read", path.string());
   }
   text.erase(0, std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> context(xmlNewParserCtxt(),
@@ -108,13 +108,12 @@ XmlTree::XmlTree(const std::filesystem::path& path, std::vector<std::string>& wa
   context->sax->serror = note_fault;
   const int options = XML_PARSE_NONET | XML_PARSE_RECOVER | XML_PARSE_HUGE | XML_PARSE_BIG_LINES |
                       (is_wide ? XML_PARSE_IGNORE_ENC : 0);
-  if (text.size() > 2'000'000'000) throw BadInput(fmt::format("{}: more than 2 GB", path.string()));
+  if (text.size() > 2'000'000'000) throw BadInput("{}: more than 2 GB", path.string());
   document_.reset(xmlCtxtReadMemory(context.get(), text.data(), static_cast<int>(text.size()),
                                     nullptr, nullptr, options),
                   xmlFreeDoc);
   if (!faults.fatal.empty() || !document_ || !root()) {
-    throw BadInput(
-        fmt::format("{}:{}", path.string(), faults.fatal.empty() ? " is no XML" : faults.fatal));
+    throw BadInput("{}:{}", path.string(), faults.fatal.empty() ? " is no XML" : faults.fatal);
   }
   if (!faults.harmless.empty()) {
     warnings.push_back(fmt::format("{}:{}: passed over", path.string(), faults.harmless));

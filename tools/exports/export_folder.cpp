@@ -47,18 +47,17 @@ void need_place_for(const fs::path& folder) {
   const auto own = exported_files(folder);
   if (!own) {
     throw BadInput(
-        fmt::format("{}: is there and no earlier export: nothing is written over it; -o names "
-                    "another folder",
-                    folder.string()));
+        "{}: is there and no earlier export: nothing is written over it; -o names another folder",
+        folder.string());
   }
   const std::vector<std::string> there = files_in(folder);
   std::vector<std::string> foreign;
   std::ranges::set_difference(there, *own, std::back_inserter(foreign));
   if (foreign.empty()) return;
   throw BadInput(
-      fmt::format("{}: holds files that no export wrote, {} for one ({} in all): remove them, or "
-                  "let -o name another folder",
-                  folder.string(), foreign.front(), foreign.size()));
+      "{}: holds files that no export wrote, {} for one ({} in all): remove them, or let -o name "
+      "another folder",
+      folder.string(), foreign.front(), foreign.size());
 }
 
 std::string marker_text(const RunRecord& record, std::string_view format,
@@ -163,15 +162,15 @@ std::string file_word(const FrameCamera& camera) {
                                 (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
                        });
   if (is_word) return camera.name;
-  throw BadInput(fmt::format(
+  throw BadInput(
       "cameras.json: camera '{}' cannot name files: only letters, digits, '.', '_' and '-' can",
-      camera.name));
+      camera.name);
 }
 
 void need_no_skew(const FrameCamera& camera, std::string_view program) {
   if (camera.skew_px() == 0.0) return;
-  throw BadInput(fmt::format("camera '{}': {} has no camera with skew_px = {}; --format plain has",
-                             camera.name, program, camera.skew_px()));
+  throw BadInput("camera '{}': {} has no camera with skew_px = {}; --format plain has", camera.name,
+                 program, camera.skew_px());
 }
 
 std::string image_name(const FrameRecord& frames, const RecordedFrame& frame) {

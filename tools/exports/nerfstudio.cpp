@@ -55,15 +55,15 @@ const char* camera_model(const FrameRecord& frames) {
     need_no_skew(c, "nerfstudio");
     const DistortionConfig d = c.lens ? c.lens->distortion() : DistortionConfig{};
     if (!is_fisheye(c) && (d.k4 != 0.0 || d.k5 != 0.0 || d.k6 != 0.0)) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "camera '{}': nerfstudio has no rational distortion (k4 to k6); --format colmap has",
-          c.name));
+          c.name);
     }
     if (is_fisheye(c) != is_fisheye(frames.cameras.front())) {
       throw BadInput(
-          fmt::format("cameras '{}' and '{}': transforms.json has one model for all, and "
-                      "only one of them is a fisheye",
-                      frames.cameras.front().name, c.name));
+          "cameras '{}' and '{}': transforms.json has one model for all, and only one of them is a "
+          "fisheye",
+          frames.cameras.front().name, c.name);
     }
   }
   return is_fisheye(frames.cameras.front()) ? "OPENCV_FISHEYE" : "OPENCV";
@@ -73,9 +73,9 @@ double common_depth_scale_m(const FrameRecord& frames) {
   const double scale_m = frames.cameras.front().depth_scale_m;
   for (const FrameCamera& c : frames.cameras) {
     if (c.depth_scale_m == scale_m) continue;
-    throw BadInput(fmt::format(
+    throw BadInput(
         "cameras.json: depth_scale_m of {} is {}, of {} {}: transforms.json has one for all",
-        frames.cameras.front().name, scale_m, c.name, c.depth_scale_m));
+        frames.cameras.front().name, scale_m, c.name, c.depth_scale_m);
   }
   return scale_m;
 }

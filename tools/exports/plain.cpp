@@ -163,9 +163,7 @@ void write_map(const fs::path& octomap, const RunRecord& record, const fs::path&
   for (const OctomapLeaf& leaf : map.leaves) {
     const auto edge = static_cast<std::size_t>(leaf.edge_voxels);
     voxels += edge * edge * edge;
-    if (voxels > most) {
-      throw BadInput(fmt::format("{}: holds more voxels than the workspace", octomap.string()));
-    }
+    if (voxels > most) throw BadInput("{}: holds more voxels than the workspace", octomap.string());
     if (!is_occupied(leaf, config)) continue;
     for (std::size_t i = 0; i < edge * edge * edge; ++i) {
       const Vec3 key(leaf.first[0] + static_cast<double>(i % edge),

@@ -76,8 +76,8 @@ std::string groundtruth_at_frames(const RunRecord& record, const CameraModel& ca
 CameraModel camera_named(const RunRecord& record, std::string_view name) {
   const auto found = std::ranges::find(record.scenario.cameras, name, &CameraConfig::name);
   if (found != record.scenario.cameras.end()) return make_camera_model(*found);
-  throw BadInput(fmt::format("{}: cameras.json names '{}', which scenario.yaml does not have",
-                             (record.folder / kFramesFolder).string(), name));
+  throw BadInput("{}: cameras.json names '{}', which scenario.yaml does not have",
+                 (record.folder / kFramesFolder).string(), name);
 }
 
 /// The depth image with that many steps a metre; how many pixels are too far for it.

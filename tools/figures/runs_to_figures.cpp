@@ -117,7 +117,7 @@ class GroupFinder {
   /// Of "GROUP=VALUE"; either may hold an equals sign.
   std::pair<std::size_t, std::string> need_pair(const char* option, const std::string& text) const {
     if (text.find('=') == std::string::npos) {
-      throw BadInput(fmt::format("{}: value '{}': must be GROUP=VALUE", option, text));
+      throw BadInput("{}: value '{}': must be GROUP=VALUE", option, text);
     }
     for (const std::vector<std::string>* const names : {&labels_, &methods_, &numbers_}) {
       for (std::size_t i = 0; i < names->size(); ++i) {
@@ -125,8 +125,8 @@ class GroupFinder {
         if (text.starts_with(said)) return {i, text.substr(said.size())};
       }
     }
-    throw BadInput(fmt::format("{}: value '{}': no such group; there are: {}", option,
-                               text.substr(0, text.rfind('=')), fmt::join(labels_, ", ")));
+    throw BadInput("{}: value '{}': no such group; there are: {}", option,
+                   text.substr(0, text.rfind('=')), fmt::join(labels_, ", "));
   }
 
   std::size_t need(const char* option, const std::string& word) const {
@@ -161,7 +161,7 @@ void dress_groups(std::vector<RunGroup>& groups, const FigureRequest& request) {
     auto [group, colour] = finder.need_pair("--colors", text);
     std::transform(colour.begin(), colour.end(), colour.begin(), ::tolower);
     if (!std::regex_match(colour, std::regex("#[0-9a-f]{6}"))) {
-      throw BadInput(fmt::format("--colors: value '{}': a colour is #rrggbb", text));
+      throw BadInput("--colors: value '{}': a colour is #rrggbb", text);
     }
     groups[group].look.colour = colour;
   }

@@ -40,13 +40,11 @@ std::vector<std::string> structure_names() {
 
 void check(const AssetOptions& options) {
   if (options.name.empty()) {
-    throw BadInput(
-        fmt::format("asset: NAME is missing; it is one of {}", fmt::join(structure_names(), ", ")));
+    throw BadInput("asset: NAME is missing; it is one of {}", fmt::join(structure_names(), ", "));
   }
   const bool is_drawn = !options.drawn_from.empty();
   if (options.name != kRandom && (options.seed || !options.kind.empty() || is_drawn)) {
-    throw BadInput(
-        fmt::format("{}: --seed, --kind and --drawn-from are for `asset random`", options.name));
+    throw BadInput("{}: --seed, --kind and --drawn-from are for `asset random`", options.name);
   }
   if (is_drawn && options.kind.empty()) throw BadInput("--drawn-from: needs --kind");
   if (options.out.empty()) {

@@ -87,8 +87,8 @@ void verify_entry(const BenchSuiteOptions& options) {
     fmt::print("{}: {}\n", file, printable(difference));
   }
   if (!differences.empty()) {
-    throw CommandFailed(fmt::format("{}: {} found, flown again with this program", file,
-                                    counted(differences.size(), "difference")));
+    throw CommandFailed("{}: {} found, flown again with this program", file,
+                        counted(differences.size(), "difference"));
   }
   const std::size_t all = entry.missions.size();
   const std::size_t flown = asked_tasks(suite_of(options), entry.track, options.only).size();

@@ -44,9 +44,8 @@ ScenarioOptions of_run(ScenarioOptions options) {
   const std::filesystem::path yaml = run / kScenarioFile;
   if (!std::filesystem::exists(yaml)) {
     throw BadInput(
-        fmt::format("{}: no run directory: {} is missing; a scenario is a built-in name "
-                    "or a YAML file",
-                    run.string(), yaml.string()));
+        "{}: no run directory: {} is missing; a scenario is a built-in name or a YAML file",
+        run.string(), yaml.string());
   }
   options.scenario = yaml.string();
   return options;

@@ -77,10 +77,9 @@ void update(const CheckOptions& options) {
 void check(const CheckOptions& options) {
   if (!fs::exists(options.against)) {
     throw BadInput(
-        fmt::format("{}: no such baseline; `gnbv check {} --against {} --update` writes "
-                    "one of the run",
-                    options.against.string(), shell_word(options.run.string()),
-                    shell_word(options.against.string())));
+        "{}: no such baseline; `gnbv check {} --against {} --update` writes one of the run",
+        options.against.string(), shell_word(options.run.string()),
+        shell_word(options.against.string()));
   }
   const Baseline baseline = read_baseline(options.against);
   const BaselineCheck check = check_against(baseline, options.against,

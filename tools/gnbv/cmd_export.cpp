@@ -159,10 +159,10 @@ std::vector<std::string> format_names() {
 
 void export_run(const ExportOptions& options) {
   if (options.points && options.format != "colmap" && options.format != "nerfstudio") {
-    throw BadInput(fmt::format("--points: {} has no sparse model", options.format));
+    throw BadInput("--points: {} has no sparse model", options.format);
   }
   if (options.depth_factor && options.format != "tum") {
-    throw BadInput(fmt::format("--depth-factor: {} has a scale of its own", options.format));
+    throw BadInput("--depth-factor: {} has a scale of its own", options.format);
   }
   const RunRecord record = read_run(options.run);
   const fs::path folder =

@@ -118,17 +118,16 @@ ViewPose ground_start(const Scenario& scenario, const World& world, const RaySce
   const double clearance_m = std::hypot(airframe.hull_radius_m, half_height_m);
   const double ground_m = ground_height_m(world, start.p_world_m);
   if (std::isinf(ground_m)) {
-    throw BadInput(fmt::format("start.position_m: there is no terrain below x {:.2f} y {:.2f} m",
-                               start.p_world_m.x(), start.p_world_m.y()));
+    throw BadInput("start.position_m: there is no terrain below x {:.2f} y {:.2f} m",
+                   start.p_world_m.x(), start.p_world_m.y());
   }
   const Vec3 on_ground_world_m(start.p_world_m.x(), start.p_world_m.y(), ground_m + half_height_m);
   constexpr unsigned kStands = kStructurePart | kObstaclePart;
   if (scene.distance_m(kStands, on_ground_world_m, clearance_m) >= clearance_m) return start;
-  throw BadInput(fmt::format(
-      "start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the "
-      "start, is within "
-      "{:.2f} m of what stands there, which its hull takes: move the start away from it",
-      start.p_world_m.x(), start.p_world_m.y(), clearance_m));
+  throw BadInput(
+      "start.position_m: a vehicle on the ground at x {:.2f} y {:.2f} m, below the start, is "
+      "within {:.2f} m of what stands there, which its hull takes: move the start away from it",
+      start.p_world_m.x(), start.p_world_m.y(), clearance_m);
 }
 
 void warn_beyond_loopback(const mavlink::Meeting& meeting) {
@@ -186,9 +185,9 @@ std::unique_ptr<CameraStream> stream_of(const FlyOptions& options, const Scenari
   const double reach_m = std::hypot(airframe.hull_radius_m, 0.5 * airframe.hull_height_m) + 0.05;
   const bool is_structure = !std::isinf(scene.distance_to_structure_m(p_world_m, reach_m));
   const double time_s = static_cast<double>(vehicle.tick()) * kTick_s;
-  throw CommandFailed(fmt::format("the vehicle hit {} at [{:.2f}, {:.2f}, {:.2f}] m after {:.2f} s",
-                                  is_structure ? "the structure" : "an obstacle", p_world_m.x(),
-                                  p_world_m.y(), p_world_m.z(), time_s));
+  throw CommandFailed("the vehicle hit {} at [{:.2f}, {:.2f}, {:.2f}] m after {:.2f} s",
+                      is_structure ? "the structure" : "an obstacle", p_world_m.x(), p_world_m.y(),
+                      p_world_m.z(), time_s);
 }
 
 void fly(const FlyOptions& options) {
@@ -198,7 +197,7 @@ void fly(const FlyOptions& options) {
   for (const std::string& url : options.urls) {
     const mavlink::Meeting meeting = mavlink::resolve_meeting(url);
     if (meeting.address.port != 0 && std::ranges::find(meetings, meeting) != meetings.end()) {
-      throw BadInput(fmt::format("--mavlink: value '{}': that client is served already", url));
+      throw BadInput("--mavlink: value '{}': that client is served already", url);
     }
     meetings.push_back(meeting);
   }

@@ -39,10 +39,10 @@ struct Tally {
   std::vector<std::string> faults;  // a mesh that is not there, a value that does not fit
 
   void throw_if_any() const {
-    if (!faults.empty()) throw BadInput(fmt::format("{}", fmt::join(faults, "\ngnbv: ")));
+    if (!faults.empty()) throw BadInput("{}", fmt::join(faults, "\ngnbv: "));
     if (unusable.empty()) return;
-    throw CommandFailed(fmt::format("{}: not usable as {}", fmt::join(unusable, ", "),
-                                    unusable.size() == 1 ? "it is" : "they are"));
+    throw CommandFailed("{}: not usable as {}", fmt::join(unusable, ", "),
+                        unusable.size() == 1 ? "it is" : "they are");
   }
 };
 

@@ -59,8 +59,7 @@ std::vector<RunRecord> read_runs(const PlotOptions& options) {
       }
     }
     if (records.empty()) {
-      throw BadInput(
-          fmt::format("{}: none of its {} runs can be read", given.string(), runs.size()));
+      throw BadInput("{}: none of its {} runs can be read", given.string(), runs.size());
     }
   }
   return records;
@@ -71,9 +70,7 @@ void plot(const PlotOptions& options) {
   std::vector<std::string> notes;
   const std::vector<Figure> figures = figures_of_runs(records, options.figures, notes);
   for (const std::string& note : notes) say(note);
-  if (figures.empty()) {
-    throw BadInput(fmt::format("{}: nothing to plot", records.front().folder.string()));
-  }
+  if (figures.empty()) throw BadInput("{}: nothing to plot", records.front().folder.string());
   fs::path folder = options.out;
   if (folder.empty()) folder = records.size() == 1 ? records.front().folder / "plots" : "plots";
   const bool is_new = make_folder(folder);

@@ -34,9 +34,8 @@ constexpr std::size_t kSnapshots = 12;  // about as many, without --every
 SurfaceItem made_surface(RunSource& run, double piece_m) {
   const fs::path& folder = run.record().folder;
   if (!fs::exists(folder / kSurfaceFolder / "surface.obj")) {
-    throw BadInput(fmt::format("no {}: `gnbv surface {}` makes it",
-                               (folder / kSurfaceFolder / "surface.obj").string(),
-                               folder.string()));
+    throw BadInput("no {}: `gnbv surface {}` makes it",
+                   (folder / kSurfaceFolder / "surface.obj").string(), folder.string());
   }
   return textured_item(read_surface(folder / kSurfaceFolder), piece_m);
 }
@@ -69,7 +68,7 @@ class RenderCommand {
       draw_kind(name);
       kinds_done_ += 1.0;
     }
-    if (drawn_ == 0) throw BadInput(fmt::format("{}", fmt::join(reasons_, "\n")));
+    if (drawn_ == 0) throw BadInput("{}", fmt::join(reasons_, "\n"));
     for (const std::string& reason : reasons_) note(reason);
     if (!options_.sheet.empty()) write_sheet();
   }

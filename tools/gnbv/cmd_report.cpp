@@ -41,28 +41,27 @@ fs::path page_path(const ReportCommandOptions& options) {
 void check_can_be_written(const fs::path& page) {
   const fs::path folder = page.has_parent_path() ? page.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) {
-    throw BadInput(fmt::format("{}: cannot write: {} is no directory; `mkdir -p` makes it",
-                               page.string(), folder.string()));
+    throw BadInput("{}: cannot write: {} is no directory; `mkdir -p` makes it", page.string(),
+                   folder.string());
   }
   if (access(folder.c_str(), W_OK) != 0) {
-    throw BadInput(fmt::format("{}: cannot write: {}: {}", page.string(), folder.string(),
-                               std::strerror(errno)));
+    throw BadInput("{}: cannot write: {}: {}", page.string(), folder.string(),
+                   std::strerror(errno));
   }
   if (fs::is_directory(page)) {
-    throw BadInput(fmt::format("{}: is a directory; --out names the page itself", page.string()));
+    throw BadInput("{}: is a directory; --out names the page itself", page.string());
   }
   if (extension_of(page) != ".html" && extension_of(page) != ".htm") {
-    throw BadInput(fmt::format("{}: a page's name ends in .html", page.string()));
+    throw BadInput("{}: a page's name ends in .html", page.string());
   }
 }
 
 void check_page_is_built_in() {
   if (why_no_page().empty()) return;
   throw CommandFailed(
-      fmt::format("report: this gnbv was built without its page: {}; build it again where npm and "
-                  "its registry can be reached, or use a gnbv of another machine: the run "
-                  "directory is all that it needs",
-                  why_no_page()));
+      "report: this gnbv was built without its page: {}; build it again where npm and its registry "
+      "can be reached, or use a gnbv of another machine: the run directory is all that it needs",
+      why_no_page());
 }
 
 void serve(const ReportCommandOptions& options) {
@@ -79,9 +78,8 @@ void report(ReportCommandOptions options) {
   check_page_is_built_in();
   if (options.runs.size() > kMaxReportRuns) {
     throw BadInput(
-        fmt::format("report: {} runs, and a page has room for {}; `gnbv compare --from` "
-                    "compares more",
-                    options.runs.size(), kMaxReportRuns));
+        "report: {} runs, and a page has room for {}; `gnbv compare --from` compares more",
+        options.runs.size(), kMaxReportRuns);
   }
   options.report.threads = thread_count(options.report.threads);
   if (options.live_port) return serve(options);

@@ -54,9 +54,9 @@ void need_route(const RunOptions& options, const Scenario& scenario) {
   }
   const bool has_views = options.mission.piped_views || !options.scenario.views.empty();
   if (!has_views || scenario.planner.utility.name == kRouteName) return;
-  throw BadInput(fmt::format("--views {}: goes with --utility {}, not {}",
-                             options.mission.piped_views ? "-" : options.scenario.views, kRouteName,
-                             scenario.planner.utility.name));
+  throw BadInput("--views {}: goes with --utility {}, not {}",
+                 options.mission.piped_views ? "-" : options.scenario.views, kRouteName,
+                 scenario.planner.utility.name);
 }
 
 void set_views(const std::string& file, RunOptions& options) {
@@ -120,12 +120,9 @@ bool has_ended(const RunOptions& options, const Scenario& scenario) {
 /// Who serves the page of the mission while it flies, where that is asked for.
 std::unique_ptr<LiveChild> watched(const RunOptions& options) {
   if (!options.live_port) return nullptr;
-  if (options.mission.out.empty()) {
-    throw BadInput("--live: needs --out, the run directory to show");
-  }
+  if (options.mission.out.empty()) throw BadInput("--live: needs --out, the run directory to show");
   if (!why_no_page().empty()) {
-    throw CommandFailed(
-        fmt::format("--live: this gnbv was built without its page: {}", why_no_page()));
+    throw CommandFailed("--live: this gnbv was built without its page: {}", why_no_page());
   }
   auto live = std::make_unique<LiveChild>(options.mission.out, *options.live_port);
   say("live: {}", live->url());
@@ -144,9 +141,8 @@ void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
     case Termination::collision:
       throw CommandFailed("the vehicle hit something; the run directory shows where");
     case Termination::interrupted:
-      throw CommandFailed(
-          fmt::format("interrupted after {} views; {} continues it", result.views.size(),
-                      command_to_resume(mission.folder, has_piped_views ? "--views -" : "")));
+      throw CommandFailed("interrupted after {} views; {} continues it", result.views.size(),
+                          command_to_resume(mission.folder, has_piped_views ? "--views -" : ""));
     default:
       return;
   }

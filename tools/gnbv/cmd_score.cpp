@@ -38,13 +38,11 @@ struct ScoreOptions {
 /// What a cloud is compared with is not written in it.
 Scored score_file(ScoreOptions options, int threads) {
   if (!std::filesystem::exists(options.target)) {
-    throw BadInput(fmt::format("{}: no such run directory or cloud", options.target));
+    throw BadInput("{}: no such run directory or cloud", options.target);
   }
-  if (options.update) {
-    throw BadInput(fmt::format("--update: {} is no run directory", options.target));
-  }
+  if (options.update) throw BadInput("--update: {} is no run directory", options.target);
   if (options.wish.ceiling == CeilingFrom::search) {
-    throw BadInput(fmt::format("--ceiling: {} is no run directory", options.target));
+    throw BadInput("--ceiling: {} is no run directory", options.target);
   }
   if (options.scenario.mesh.empty() && options.scenario.scenario.empty()) {
     throw BadInput("score: needs --mesh FILE or --scenario NAME, whose surface is the true one");
@@ -75,9 +73,9 @@ Scored score_folder(const ScoreOptions& options, int threads) {
                          !options.offset_m.empty();
   if (says_more) {
     throw BadInput(
-        fmt::format("{}: a run is scored by its own scenario.yaml: --mesh, --scenario, "
-                    "--floor-z, --offset-m and --set are for clouds",
-                    options.target));
+        "{}: a run is scored by its own scenario.yaml: --mesh, --scenario, --floor-z, --offset-m "
+        "and --set are for clouds",
+        options.target);
   }
   if (options.wish.box_m && (options.update || options.wish.ceiling == CeilingFrom::search)) {
     throw BadInput("--box: scores a part, not the run; leave out --update and --ceiling");
@@ -102,9 +100,8 @@ ScoreWish wish_of(const ScoreOptions& options) {
   const std::vector<double>& b = options.box_m;
   const bool is_box = b.size() == 6 && b[0] < b[3] && b[1] < b[4] && b[2] < b[5];
   if (!is_box) {
-    throw BadInput(
-        fmt::format("--box {}: has to be x0,y0,z0,x1,y1,z1 (m), each lower than its upper end",
-                    fmt::join(b, ",")));
+    throw BadInput("--box {}: has to be x0,y0,z0,x1,y1,z1 (m), each lower than its upper end",
+                   fmt::join(b, ","));
   }
   wish.box_m = Box3(Vec3(b[0], b[1], b[2]), Vec3(b[3], b[4], b[5]));
   return wish;

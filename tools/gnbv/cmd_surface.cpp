@@ -38,8 +38,8 @@ int depth_of(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), depth);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (!is_number || depth < kMinDepth || depth > kMaxDepth) {
-    throw BadInput(fmt::format("--depth: '{}' is neither auto nor a number from {} to {}", text,
-                               kMinDepth, kMaxDepth));
+    throw BadInput("--depth: '{}' is neither auto nor a number from {} to {}", text, kMinDepth,
+                   kMaxDepth);
   }
   return depth;
 }

@@ -53,11 +53,9 @@ std::pair<std::size_t, std::size_t> parse_index(const std::string& text, std::si
     read = std::from_chars(read.ptr + 1, end, last);
   }
   if (read.ec != std::errc{} || read.ptr != end || last < first) {
-    throw BadInput(fmt::format("--index {}: has to read K or K-L", text));
+    throw BadInput("--index {}: has to read K or K-L", text);
   }
-  if (last >= cells) {
-    throw BadInput(fmt::format("--index {}: the sweep has the cells 0 to {}", text, cells - 1));
-  }
+  if (last >= cells) throw BadInput("--index {}: the sweep has the cells 0 to {}", text, cells - 1);
   return {first, last};
 }
 
@@ -115,8 +113,7 @@ void report(const SweepOptions& options, const std::vector<Cell>& cells,
 
 void show_status(const SweepOptions& options, const std::vector<Cell>& cells) {
   if (!fs::is_directory(options.run.folder)) {
-    throw BadInput(
-        fmt::format("{}: no such folder: nothing was flown there", options.run.folder.string()));
+    throw BadInput("{}: no such folder: nothing was flown there", options.run.folder.string());
   }
   std::vector<CellOutcome> outcomes;
   for (const Cell& cell : cells) outcomes.push_back(look_up(options.run.folder, cell));
@@ -127,13 +124,12 @@ void fail_if_any_failed(const std::vector<CellOutcome>& outcomes) {
   const std::size_t failed = count_of(outcomes, CellStatus::failed);
   const std::size_t missing = count_of(outcomes, CellStatus::missing);
   if (missing > 0) {
-    throw CommandFailed(
-        fmt::format("interrupted: {} cells are missing; the same command goes on", missing));
+    throw CommandFailed("interrupted: {} cells are missing; the same command goes on", missing);
   }
   if (failed > 0) {
     const auto first = std::ranges::find(outcomes, CellStatus::failed, &CellOutcome::status);
-    throw CommandFailed(fmt::format(
-        "{} cells failed; --retry-failed runs them again; the first: {}", failed, first->failure));
+    throw CommandFailed("{} cells failed; --retry-failed runs them again; the first: {}", failed,
+                        first->failure);
   }
 }
 
@@ -150,9 +146,9 @@ void run_indexed(const SweepOptions& options, const Sweep& sweep) {
   for (std::size_t i = first; i <= last; ++i) {
     if (i < manifest->cells.size() && manifest->cells[i].id == cells[i - first].id) continue;
     throw BadInput(
-        fmt::format("{}: cell {} is not the one of {}: the sweep, a file it names or the program "
-                    "has changed since; `gnbv sweep` without --index takes the new one",
-                    options.file.string(), i, (options.run.folder / "sweep.json").string()));
+        "{}: cell {} is not the one of {}: the sweep, a file it names or the program has changed "
+        "since; `gnbv sweep` without --index takes the new one",
+        options.file.string(), i, (options.run.folder / "sweep.json").string());
   }
   RunCellsOptions run = options.run;
   run.wait_for_locked = false;

@@ -78,34 +78,32 @@ void need_consistent(const RenderOptions& options, const std::vector<std::string
     throw BadInput("--over-surface: is of the picture path, which --what does not name");
   }
   if (is_one_file && (options.runs.size() > 1 || kinds.size() > 1)) {
-    throw BadInput(
-        fmt::format("--out {}: one file for {} runs and {} kinds of pictures: give a "
-                    "folder",
-                    options.out.string(), options.runs.size(), kinds.size()));
+    throw BadInput("--out {}: one file for {} runs and {} kinds of pictures: give a folder",
+                   options.out.string(), options.runs.size(), kinds.size());
   }
   if (is_one_file && (kinds.front() == "snapshots" ||
                       is_film_ending(options.out.extension()) != (kinds.front() == "movie"))) {
     const char* const endings =
         kinds.front() == "movie" ? "ends in .mp4, .gif, .apng or .webp" : "ends in .png";
-    throw BadInput(fmt::format("--out {}: {}", options.out.string(),
-                               kinds.front() == "snapshots"
-                                   ? "snapshots are many files: name a folder"
-                                   : fmt::format("the name of a {} {}", kinds.front(), endings)));
+    throw BadInput("--out {}: {}", options.out.string(),
+                   kinds.front() == "snapshots"
+                       ? "snapshots are many files: name a folder"
+                       : fmt::format("the name of a {} {}", kinds.front(), endings));
   }
   for (const char* other : {".jpg", ".jpeg", ".svg", ".pdf", ".tif", ".tiff", ".bmp", ".webm",
                             ".avi", ".mov", ".mkv"}) {
     if (extension_of(options.out) != other) continue;
-    throw BadInput(fmt::format("--out {}: pictures are .png, movies .mp4, .gif, .apng or .webp",
-                               options.out.string()));
+    throw BadInput("--out {}: pictures are .png, movies .mp4, .gif, .apng or .webp",
+                   options.out.string());
   }
   if (!options.sheet.empty() && extension_of(options.sheet) != ".png") {
-    throw BadInput(fmt::format("--sheet {}: a sheet is a .png", options.sheet.string()));
+    throw BadInput("--sheet {}: a sheet is a .png", options.sheet.string());
   }
   if (!options.sheet.empty() && std::all_of(kinds.begin(), kinds.end(), is_series)) {
     throw BadInput(
-        fmt::format("--sheet {}: snapshots and movies have no place on a sheet: name other "
-                    "pictures with --what",
-                    options.sheet.string()));
+        "--sheet {}: snapshots and movies have no place on a sheet: name other pictures with "
+        "--what",
+        options.sheet.string());
   }
 }
 
@@ -116,9 +114,9 @@ void set_camera(RenderOptions& options) {
   const bool is_turned = options.azimuth_deg || options.elevation_deg;
   if (choice.camera && is_turned) {
     throw BadInput(
-        fmt::format("--camera {}: the file says from where to look; leave out --azimuth-deg and "
-                    "--elevation-deg, or the file",
-                    options.camera));
+        "--camera {}: the file says from where to look; leave out --azimuth-deg and "
+        "--elevation-deg, or the file",
+        options.camera);
   }
   picture.camera = choice.camera;
   if (!is_named && !is_turned) return;

@@ -139,8 +139,7 @@ void print_bench(const BenchTables& bench, const std::string& format) {
                formatted_text(table, format, stdout_columns()));
   }
   if (bench.failures.empty()) return;
-  throw CommandFailed(
-      fmt::format("not every mission came to its end:\n{}", fmt::join(bench.failures, "\n")));
+  throw CommandFailed("not every mission came to its end:\n{}", fmt::join(bench.failures, "\n"));
 }
 
 void refuse_odd_numbers(CLI::App& app) {

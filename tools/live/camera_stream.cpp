@@ -99,8 +99,7 @@ CameraStream::CameraStream(const RayScene& scene, std::vector<CameraModel> camer
   std::set<std::string> names;
   for (const CameraModel& camera : cameras_) {
     if (names.insert(camera.config.name).second) continue;
-    throw BadInput(fmt::format("cameras: two are named '{}', and so would their frames be",
-                               camera.config.name));
+    throw BadInput("cameras: two are named '{}', and so would their frames be", camera.config.name);
   }
   if (keeps_files_) make_folder(options_.folder);
   if (!options_.video_url.empty()) {

@@ -67,9 +67,9 @@ void answer(int status, const std::string& text, Response& response) {
 
 BadInput port_is_taken(int port) {
   return BadInput(
-      fmt::format("--live {}: this port of {} cannot be had: it is taken, or yours begin at 1024; "
-                  "0 takes a free one",
-                  port, kHost));
+      "--live {}: this port of {} cannot be had: it is taken, or yours begin at 1024; 0 takes a "
+      "free one",
+      port, kHost);
 }
 
 /// Serves on 127.0.0.1 from threads of its own: `/` is the page, `/views` the number of views it

@@ -41,15 +41,13 @@ void need_memory_for(const Scenario& scenario, int threads) {
       planning_bytes(scenario.planner, scenario.workspace_m, threads, scenario.cameras.size());
   if (bytes <= kMapBudget_bytes) return;
   throw BadInput(
-      fmt::format("--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the "
-                  "budget is {:.0f} GiB",
-                  threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30));
+      "--threads {}: a map of {} voxels needs {:.1f} GiB with so many, the budget is {:.0f} GiB",
+      threads, grid.voxel_count(), bytes / 0x1p30, kMapBudget_bytes / 0x1p30);
 }
 
 void need_cameras(const Scenario& scenario) {
   if (!scenario.cameras.empty()) return;
-  throw BadInput(
-      fmt::format("--frames: {} has no camera whose frames could be kept", scenario.name));
+  throw BadInput("--frames: {} has no camera whose frames could be kept", scenario.name);
 }
 
 /// A saved profile that cannot be used is found before anything is written.
@@ -80,10 +78,10 @@ void need_room_to_fly(const Scenario& scenario, const World& world, const RaySce
 void need_views(const Scenario& scenario, bool are_asked_for) {
   if (are_asked_for || !traits_of(scenario.planner).takes_views) return;
   if (!scenario.planner.routes.views.empty()) return;
-  throw BadInput(fmt::format(
+  throw BadInput(
       "planner.routes.views: holds no view, and planner.utility.name = {} flies what it holds; "
       "--views FILE gives some",
-      scenario.planner.utility.name));
+      scenario.planner.utility.name);
 }
 
 /// Who is given views one by one goes on with those that the run was given: all are in its

@@ -84,12 +84,12 @@ World load_world(const Scenario& scenario, std::vector<std::string>& warnings) {
     const Vec3 lo = mesh_m.min();
     const Vec3 hi = mesh_m.max();
     const std::string& at = scenario.placed_at;
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}{}{}: the mesh spans [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] m, which is "
         "not inside workspace_m: `--bounds auto` lays the workspace around it; or set "
         "structure.file.scale, structure.file.offset_m, structure.file.unit_m or workspace_m",
         at, at.empty() ? "" : ": ", structure_name(structure), lo.x(), lo.y(), lo.z(), hi.x(),
-        hi.y(), hi.z()));
+        hi.y(), hi.z());
   }
   return world;
 }

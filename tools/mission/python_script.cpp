@@ -26,8 +26,8 @@ Json answer_of(const std::string& program, const std::string& what, const Json& 
   child.write(line(head) + line(request));
   Json answer = Json::parse(child.read_line(), nullptr, false);
   if (answer.is_object()) return answer;
-  throw BadInput(fmt::format("{}: {} does not run ({}); GNBV_PYTHON names another", what, program,
-                             child.end().text()));
+  throw BadInput("{}: {} does not run ({}); GNBV_PYTHON names another", what, program,
+                 child.end().text());
 }
 
 Json result_of(const Json& answer) {

@@ -59,9 +59,8 @@ void announce(const Scenario& scenario, const ReferenceCost& cost, int threads) 
       cost.bytes / 0x1p30);
   if (cost.bytes > memory) {
     throw BadInput(
-        fmt::format("{}, and this machine has {:.1f} GB: fly a part of it, or lower "
-                    "structure.file.scale",
-                    what, memory / 0x1p30));
+        "{}, and this machine has {:.1f} GB: fly a part of it, or lower structure.file.scale", what,
+        memory / 0x1p30);
   }
   if (seconds > kLong_s) say("{}, once; it is kept", what);
 }
@@ -81,12 +80,12 @@ SurfaceReference reference_of(const Scenario& scenario, const World& world, cons
   if (reference.counted[0].empty()) {
     const std::string where =
         config.region_m.isApprox(ReferenceConfig{}.region_m) ? "" : " and in score.region_m";
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: nothing to measure: above planner.floor_z_m = {} m{} there is no {}; `gnbv lint` says "
         "more of a mesh",
         structure_name(scenario.structure), floor_z_m, where,
         config.area_samples == 0 ? "voxel with surface enough that can be seen from outside"
-                                 : "surface that a sample could be drawn from"));
+                                 : "surface that a sample could be drawn from");
   }
   return reference;
 }

@@ -12,10 +12,10 @@ namespace {
 void need_same(const ViewRecord& now, const ViewRecord& recorded) {
   if (now.cloud_points == recorded.cloud_points && now.entropy_nat == recorded.entropy_nat) return;
   throw BadInput(
-      fmt::format("view {}: flown again it left {} points and {} nat, recorded were {} and {}: "
-                  "another version of the program or another mesh made this run; fly it anew",
-                  now.iteration, now.cloud_points, now.entropy_nat, recorded.cloud_points,
-                  recorded.entropy_nat));
+      "view {}: flown again it left {} points and {} nat, recorded were {} and {}: another version "
+      "of the program or another mesh made this run; fly it anew",
+      now.iteration, now.cloud_points, now.entropy_nat, recorded.cloud_points,
+      recorded.entropy_nat);
 }
 
 /// What flies the first `count` views as recorded.

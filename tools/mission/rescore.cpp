@@ -58,23 +58,21 @@ double smallest_voxel_m(const Scenario& scenario, const ScoreWish& wish) {
 void need_matching(const fs::path& run, const ScoredCloud& cloud, std::span<const Vec3f> profile,
                    std::size_t views) {
   if (cloud.views.size() != views) {
-    throw BadInput(fmt::format("{}: {} views, {} in summary.json: files of two runs?",
-                               (run / kIterationsFile).string(), cloud.views.size(), views));
+    throw BadInput("{}: {} views, {} in summary.json: files of two runs?",
+                   (run / kIterationsFile).string(), cloud.views.size(), views);
   }
   const std::span<const Vec3f> points = cloud.points_world_m;
   if (profile.size() > points.size() ||
       !std::equal(profile.begin(), profile.end(), points.begin())) {
-    throw BadInput(fmt::format("{}: is not the beginning of cloud.ply: files of two runs?",
-                               (run / kProfileCloudFile).string()));
+    throw BadInput("{}: is not the beginning of cloud.ply: files of two runs?",
+                   (run / kProfileCloudFile).string());
   }
   std::size_t before = profile.size();
   for (std::size_t view = 0; view < cloud.views.size(); ++view) {
     const std::size_t now = cloud.views[view].cloud_points;
     if (now < before || now > points.size()) {
-      throw BadInput(
-          fmt::format("{}:{}: cloud_points {} after {}, of {} in cloud.ply: files of "
-                      "two runs?",
-                      (run / kIterationsFile).string(), view + 2, now, before, points.size()));
+      throw BadInput("{}:{}: cloud_points {} after {}, of {} in cloud.ply: files of two runs?",
+                     (run / kIterationsFile).string(), view + 2, now, before, points.size());
     }
     before = now;
   }
@@ -98,7 +96,7 @@ Scored score_any_cloud(const std::string& name, std::span<const Vec3f> cloud_wor
 Scored score_run(const fs::path& run, const ScoreWish& wish, int threads) {
   const RunSummary summary = read_summary(run);
   const auto need = [&](bool is_there, const char* what) {
-    if (!is_there) throw BadInput(fmt::format("{}: {}", (run / kSummaryFile).string(), what));
+    if (!is_there) throw BadInput("{}: {}", (run / kSummaryFile).string(), what);
   };
   need(summary.profile_end_s.has_value(), "/profile_end_s: is missing");
   need(summary.profile_m.has_value(), "/distance_m/profile: is missing");

@@ -42,12 +42,12 @@ ViewPose start_pose(const Scenario& scenario, const RayScene& scene) {
   }
   const bool is_structure =
       scene.distance_to_structure_m(start.pose.p_world_m, radius_m) < radius_m;
-  throw BadInput(fmt::format(
-      "start.position_m: [{}, {}, {}] and its jitter lie within planner.validity."
-      "collision_radius_m = {} of {}: move the start away from it",
+  throw BadInput(
+      "start.position_m: [{}, {}, {}] and its jitter lie within "
+      "planner.validity.collision_radius_m = {} of {}: move the start away from it",
       start.pose.p_world_m.x(), start.pose.p_world_m.y(), start.pose.p_world_m.z(), radius_m,
       is_structure || !is_surrounded(scenario) ? "the structure"
-                                               : "an obstacle, the terrain or a no_fly box"));
+                                               : "an obstacle, the terrain or a no_fly box");
 }
 
 std::string moved_start_note(const Scenario& scenario, const ViewPose& start) {
@@ -93,11 +93,11 @@ void need_way_out(const Scenario& scenario, const RayScene& scene, const Box3& s
                   [&](const Vec3& p_m) { return !structure_m.contains(p_m); })) {
     return;
   }
-  throw BadInput(fmt::format(
+  throw BadInput(
       "start.position_m: the start [{:.2f}, {:.2f}, {:.2f}] is enclosed by the structure: no way "
       "out was found for a sphere of planner.validity.collision_radius_m = {}, and the profile is "
       "flown outside; move the start, try `--bounds auto`, or set planner.profiling.method: none",
-      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
+      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m);
 }
 
 void need_way_up(const Scenario& scenario, const World& world, const RayScene& scene,
@@ -107,18 +107,18 @@ void need_way_up(const Scenario& scenario, const World& world, const RayScene& s
   Vec3 low_m = start.p_world_m;
   low_m.z() = ground_height_m(world, start.p_world_m) + 1.5 * radius_m;  // slopes are near, too
   if (std::isinf(low_m.z())) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "start.on_ground: there is no ground below [{:.2f}, {:.2f}, {:.2f}], where the mission "
         "begins; structure.ground: true, or a terrain, gives one",
-        start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z()));
+        start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z());
   }
   if (low_m.z() >= start.p_world_m.z() || is_leg_clear(scene, low_m, start.p_world_m, radius_m)) {
     return;
   }
-  throw BadInput(fmt::format(
+  throw BadInput(
       "start.on_ground: the way up to [{:.2f}, {:.2f}, {:.2f}] comes nearer than "
       "planner.validity.collision_radius_m = {} m to something solid: move start.position_m",
-      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m));
+      start.p_world_m.x(), start.p_world_m.y(), start.p_world_m.z(), radius_m);
 }
 
 std::string profile_warning(const Scenario& scenario, const RayScene& scene,

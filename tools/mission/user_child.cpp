@@ -89,11 +89,11 @@ class UserChild {
            {"modules", {{"_errors", errors_module()}, {"_planner", planner_module()}}}}});
     const Message answer = receive();
     if (answer.fields.empty()) {
-      throw BadInput(fmt::format("{}: {} does not run ({}); GNBV_PYTHON names another", who_,
-                                 python_program(), child_.end().text()));
+      throw BadInput("{}: {} does not run ({}); GNBV_PYTHON names another", who_, python_program(),
+                     child_.end().text());
     }
     if (const auto error = answer.fields.find("error"); error != answer.fields.end()) {
-      throw BadInput(fmt::format("{}: {}", who_, error->get<std::string>()));
+      throw BadInput("{}: {}", who_, error->get<std::string>());
     }
   }
 

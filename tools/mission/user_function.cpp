@@ -100,16 +100,15 @@ Definition chosen(const FunctionWords& named, const std::string& source) {
       return definition.name == named.function;
     });
     if (at != all.end()) return *at;
-    throw BadInput(
-        fmt::format("{}: defines no function '{}' at its top level", named.file, named.function));
+    throw BadInput("{}: defines no function '{}' at its top level", named.file, named.function);
   }
   std::erase_if(all, [](const Definition& definition) { return !definition.is_def; });
   if (all.empty()) throw BadInput(named.file + ": defines no function at its top level");
   if (all.size() == 1) return all.front();
   std::vector<std::string> names;
   for (const Definition& definition : all) names.push_back(definition.name);
-  throw BadInput(fmt::format("{}: defines several functions ({}): name one, as in {}:{}",
-                             named.file, fmt::join(names, ", "), named.file, names.back()));
+  throw BadInput("{}: defines several functions ({}): name one, as in {}:{}", named.file,
+                 fmt::join(names, ", "), named.file, names.back());
 }
 
 }  // namespace

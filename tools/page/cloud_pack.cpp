@@ -187,15 +187,15 @@ std::optional<page::Array<std::uint8_t>> pack_surface(const RunRecord& record,
   if (!std::filesystem::exists(path)) return std::nullopt;
   const std::string glb = read_file(path);
   if (!is_whole_glb(glb)) {
-    throw BadInput(fmt::format("{}: is no whole binary glTF; `gnbv surface {}` writes it anew",
-                               path.string(), record.folder.string()));
+    throw BadInput("{}: is no whole binary glTF; `gnbv surface {}` writes it anew", path.string(),
+                   record.folder.string());
   }
   if (glb.size() > max_bytes) {
     throw BadInput(
-        fmt::format("{}: {:.1f} MB are too many for the page, {:.1f} MB are left; `gnbv surface {} "
-                    "--texture-px 2048 --simplify-m 0.05` makes a smaller one",
-                    path.string(), 1e-6 * static_cast<double>(glb.size()),
-                    1e-6 * static_cast<double>(max_bytes), record.folder.string()));
+        "{}: {:.1f} MB are too many for the page, {:.1f} MB are left; `gnbv surface {} "
+        "--texture-px 2048 --simplify-m 0.05` makes a smaller one",
+        path.string(), 1e-6 * static_cast<double>(glb.size()),
+        1e-6 * static_cast<double>(max_bytes), record.folder.string());
   }
   return arrays.add(std::vector<std::uint8_t>(glb.begin(), glb.end()));
 }

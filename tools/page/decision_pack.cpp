@@ -142,10 +142,10 @@ std::optional<page::CandidateData> pack_candidates(const RunRecord& record, std:
   if (needed <= max_bytes) return out;
   arrays.cut(before);
   throw BadInput(
-      fmt::format("{}: {} candidates are too many for the page: {:.1f} MB, {:.1f} MB are left; "
-                  "`gnbv render --what candidates` draws any decision",
-                  (record.folder / kCandidatesFile).string(), grouped(kind.size()),
-                  1e-6 * static_cast<double>(needed), 1e-6 * static_cast<double>(max_bytes)));
+      "{}: {} candidates are too many for the page: {:.1f} MB, {:.1f} MB are left; `gnbv render "
+      "--what candidates` draws any decision",
+      (record.folder / kCandidatesFile).string(), grouped(kind.size()),
+      1e-6 * static_cast<double>(needed), 1e-6 * static_cast<double>(max_bytes));
 }
 
 std::optional<page::BeliefData> pack_beliefs(const RunRecord& record, std::size_t max_bytes,

@@ -56,7 +56,7 @@ class FigureDesk {
   const PaperMission& mission(std::string_view utility) const {
     const auto missions = missions_of(material, scenario, utility);
     if (!missions.empty()) return *missions.front();
-    throw BadInput(fmt::format("no mission of {} by {} came to its end", scenario, utility));
+    throw BadInput("no mission of {} by {} came to its end", scenario, utility);
   }
   RunSource source(std::string_view utility) const {
     return {mission(utility).record.folder, threads, [](double, const std::string&) {}};

@@ -85,7 +85,7 @@ Film::~Film() {
 }
 
 void Film::need(bool is_content, const std::string& why) const {
-  if (!is_content) throw BadInput(fmt::format("{}: {}", path_.string(), why));
+  if (!is_content) throw BadInput("{}: {}", path_.string(), why);
 }
 
 void Film::add(const Image& image) {

@@ -110,9 +110,9 @@ class Font {
  private:
   void check(FT_Error error) const {
     if (error == 0) return;
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: cannot be read as a font (FreeType's error {}); GNBV_FONT=FILE names another", file_,
-        error));
+        error);
   }
 
   std::string file_ = font_file();

@@ -39,8 +39,8 @@ const PictureKind& picture_kind(std::string_view name) {
     names.push_back(kind->name);
   }
   names.insert(names.end(), {"snapshots", "movie", "all"});
-  throw BadInput(fmt::format("--what {}: no such picture ({}there are: {})", name,
-                             did_you_mean(name, names), join(names)));
+  throw BadInput("--what {}: no such picture ({}there are: {})", name, did_you_mean(name, names),
+                 join(names));
 }
 
 PictureOptions with_shared_colours(const PictureKind& kind, std::span<RunSource* const> runs,
@@ -80,15 +80,13 @@ double layout_unit_m(const RenderView& view) {
 
 std::size_t iteration_of(const RunRecord& record, const PictureOptions& options,
                          std::size_t otherwise) {
-  if (record.views.empty()) {
-    throw BadInput(fmt::format("{}: took no view yet", record.folder.string()));
-  }
+  if (record.views.empty()) throw BadInput("{}: took no view yet", record.folder.string());
   const std::size_t count = record.views.size();
   if (!options.iteration) return std::min(otherwise, count - 1);
   const auto iteration = static_cast<std::size_t>(*options.iteration);
   if (*options.iteration < 0 || iteration >= count) {
-    throw BadInput(fmt::format("--iteration {}: {} has iterations 0 to {}", *options.iteration,
-                               record.folder.string(), count - 1));
+    throw BadInput("--iteration {}: {} has iterations 0 to {}", *options.iteration,
+                   record.folder.string(), count - 1);
   }
   return iteration;
 }

@@ -25,9 +25,9 @@ std::size_t decision_asked(const RunRecord& record, const PictureOptions& option
   const std::size_t iteration = iteration_of(record, options, record.views.size() / 2);
   if (iteration > 0) return iteration;
   throw BadInput(
-      fmt::format("{}: view 1 (iteration 0) is where the mission starts: nothing chose it; "
-                  "--iteration asks for one from 1 on",
-                  record.folder.string()));
+      "{}: view 1 (iteration 0) is where the mission starts: nothing chose it; --iteration asks "
+      "for one from 1 on",
+      record.folder.string());
 }
 
 void frame_candidates(RunSource& run, const PictureOptions& options,

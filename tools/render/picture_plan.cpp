@@ -26,10 +26,8 @@ std::size_t iteration_left(const RunRecord& record, const PictureOptions& option
 StandingPlan plan_after(RunSource& run, std::size_t iteration) {
   const auto standing = standing_plan(run.plans(), run.record(), iteration);
   if (standing) return *standing;
-  throw BadInput(
-      fmt::format("{}: made no plan by view {} (iteration {}): the mission "
-                  "ended there",
-                  run.record().folder.string(), iteration + 1, iteration));
+  throw BadInput("{}: made no plan by view {} (iteration {}): the mission ended there",
+                 run.record().folder.string(), iteration + 1, iteration);
 }
 
 void frame_plan(RunSource& run, const PictureOptions& options, std::vector<Vec3>& points_world_m) {

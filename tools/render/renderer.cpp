@@ -299,9 +299,8 @@ struct Renderer::Impl {
     const GLenum error = gl.GetError();
     if (error == GL_OUT_OF_MEMORY) {
       throw BadInput(
-          fmt::format("picture size {} x {} px: too little memory; ask for less with --width and "
-                      "--height",
-                      width, height));
+          "picture size {} x {} px: too little memory; ask for less with --width and --height",
+          width, height);
     }
     GNBV_CHECK(error == GL_NO_ERROR, "OpenGL error {:#x} at {} x {} px", error, width, height);
     return image;
@@ -311,14 +310,13 @@ struct Renderer::Impl {
     const int width = view.width_px;
     const int height = view.height_px;
     if (std::min(width, height) < 1 || std::max(width, height) > kMaxSide_px) {
-      throw BadInput(fmt::format("picture size {} x {} px: both must be from 1 to {}", width,
-                                 height, kMaxSide_px));
+      throw BadInput("picture size {} x {} px: both must be from 1 to {}", width, height,
+                     kMaxSide_px);
     }
     if (std::int64_t{width} * height > kMaxArea_px) {
       throw BadInput(
-          fmt::format("picture size {} x {} px: more than {} pixels; ask for less with "
-                      "--width and --height",
-                      width, height, kMaxArea_px));
+          "picture size {} x {} px: more than {} pixels; ask for less with --width and --height",
+          width, height, kMaxArea_px);
     }
     context.make_current();
     const DrawLists lists = make_draw_lists(scene);

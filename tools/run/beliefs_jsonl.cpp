@@ -42,7 +42,7 @@ VoxelRuns runs_of(const Json& json, std::size_t voxels) {
     const auto gap = json[i].get<std::uint64_t>();
     const auto length = json[i + 1].get<std::uint64_t>();
     if (gap > voxels || length > voxels || end + gap + length > voxels) {
-      throw BadInput(fmt::format("runs end beyond the {} voxels of the map", voxels));
+      throw BadInput("runs end beyond the {} voxels of the map", voxels);
     }
     if (length == 0 || (gap == 0 && i > 0)) throw BadInput("runs are longer, and apart");
     runs.push_back({static_cast<VoxelIndex>(end + gap), static_cast<std::uint32_t>(length)});

@@ -60,7 +60,7 @@ std::optional<int> count_of(const Json& json, const char* name) {
   if (!json.contains(name)) return std::nullopt;
   const Json& count = json.at(name);
   if (!count.is_number_unsigned() || count.get<std::uint64_t>() > 2'147'483'647) {
-    throw BadInput(fmt::format("{}: is no whole number from 0 on", name));
+    throw BadInput("{}: is no whole number from 0 on", name);
   }
   return count.get<int>();
 }
@@ -68,7 +68,7 @@ std::optional<int> count_of(const Json& json, const char* name) {
 Candidate candidate_of(const Json& json) {
   const std::string& sampler = json.at("sampler").get_ref<const std::string&>();
   const auto known = sampler_named(sampler);
-  if (!known) throw BadInput(fmt::format("sampler: no sampler is named {}", sampler));
+  if (!known) throw BadInput("sampler: no sampler is named {}", sampler);
   Candidate c{.view = {Vec3(json.at("x_m"), json.at("y_m"), json.at("z_m")), json.at("yaw_rad"),
                        json.value("gimbal_pitch_rad", 0.0)},
               .sampler = *known,
@@ -96,11 +96,10 @@ std::string candidates_before(std::size_t iteration, const fs::path& run) {
   const LinesBefore kept = lines_before(iteration, run, kCandidatesFile);
   if (kept.next_iteration >= iteration) return kept.text;
   const auto file = RunFiles(run).find(kCandidatesFile);
-  if (!file) throw BadInput(fmt::format("{}: {}", (run / kCandidatesFile).string(), kNotWritten));
+  if (!file) throw BadInput("{}: {}", (run / kCandidatesFile).string(), kNotWritten);
   if (read_file(*file).empty()) return "";  // an oracle's mission samples none
-  throw BadInput(
-      fmt::format("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
-                  file->string(), kept.next_iteration, kNotWritten));
+  throw BadInput("{}: holds no candidates of iteration {}, which was flown: cut off, or {}",
+                 file->string(), kept.next_iteration, kNotWritten);
 }
 
 }  // namespace
@@ -124,9 +123,9 @@ std::optional<Plan> read_candidates(const fs::path& run, std::size_t iteration) 
       [&](std::size_t, const Json& json, std::string_view) { add_candidate(json, plan); });
   if (!has_lines) return std::nullopt;  // an oracle's mission samples none
   if (plan.candidates.empty()) {
-    throw BadInput(fmt::format("{}: holds no candidate of iteration {}; {} writes them",
-                               (run / kCandidatesFile).string(), iteration,
-                               command_to_fly_again(run, "--candidates")));
+    throw BadInput("{}: holds no candidate of iteration {}; {} writes them",
+                   (run / kCandidatesFile).string(), iteration,
+                   command_to_fly_again(run, "--candidates"));
   }
   return plan;
 }

@@ -20,7 +20,7 @@ void write_cloud_ply(std::span<const Vec3f> points_world_m, const std::filesyste
 
 void CloudPoints::fail(const std::string& what, std::size_t line) const {
   const std::string place = line > 0 ? fmt::format(":{}", line) : "";
-  throw BadInput(fmt::format("{}{}: {}", path.string(), place, printable(what)));
+  throw BadInput("{}{}: {}", path.string(), place, printable(what));
 }
 
 void CloudPoints::left_out(std::uint64_t count, const std::string& what) {
@@ -44,9 +44,9 @@ std::vector<Vec3f> read_cloud(const std::filesystem::path& path, const Vec3& off
       if (extension == text) return read_text_cloud;
     }
     throw BadInput(
-        fmt::format("{}: a cloud is a .ply, .pcd, .las, .xyz, .pts, .txt, .asc or .csv "
-                    "file; CloudCompare turns others into .ply",
-                    path.string()));
+        "{}: a cloud is a .ply, .pcd, .las, .xyz, .pts, .txt, .asc or .csv file; CloudCompare "
+        "turns others into .ply",
+        path.string());
   }();
   reader(points);
   if (warnings != nullptr) {

@@ -30,12 +30,12 @@ void need_curve(const CoverageCurve& before, std::span<const double> row, const 
   const double metres = before.metres.empty() ? 0.0 : before.metres.back();
   const double seconds = before.seconds.empty() ? 0.0 : before.seconds.back();
   if (!(row[1] >= metres && row[2] >= seconds)) {
-    throw BadInput(fmt::format("{}: {} m and {} s after {} m and {} s", to_string(place), row[1],
-                               row[2], metres, seconds));
+    throw BadInput("{}: {} m and {} s after {} m and {} s", to_string(place), row[1], row[2],
+                   metres, seconds);
   }
   for (const double share : row.subspan(3)) {
     if (share >= 0.0 && share <= 1.0) continue;
-    throw BadInput(fmt::format("{}: coverage {} must be from 0 to 1", to_string(place), share));
+    throw BadInput("{}: coverage {} must be from 0 to 1", to_string(place), share);
   }
 }
 
@@ -43,8 +43,8 @@ void add_energy(double energy_wh, double on_one_battery, const TextPlace& place,
                 CoverageCurve& curve) {
   const double before_wh = curve.energy_wh.empty() ? 0.0 : curve.energy_wh.back();
   if (!(energy_wh >= before_wh) || (on_one_battery != 0.0 && on_one_battery != 1.0)) {
-    throw BadInput(fmt::format("{}: {} Wh after {} Wh, one_battery {}", to_string(place), energy_wh,
-                               before_wh, on_one_battery));
+    throw BadInput("{}: {} Wh after {} Wh, one_battery {}", to_string(place), energy_wh, before_wh,
+                   on_one_battery);
   }
   curve.energy_wh.push_back(energy_wh);
   curve.on_one_battery.push_back(on_one_battery == 1.0);
@@ -101,11 +101,10 @@ CoverageFile read_coverage_csv(const std::filesystem::path& file) {
     }
     const std::size_t count = names.size() + (has_energy ? 2 : 0);
     if (values.size() != count) {
-      throw BadInput(fmt::format("{}: '{}' is no row of {} numbers", to_string(place), row, count));
+      throw BadInput("{}: '{}' is no row of {} numbers", to_string(place), row, count);
     }
     if (values[0] != place.line - 2) {
-      throw BadInput(
-          fmt::format("{}: view {} must be {}", to_string(place), values[0], place.line - 2));
+      throw BadInput("{}: view {} must be {}", to_string(place), values[0], place.line - 2);
     }
     need_curve(read.curve, std::span(values).first(names.size()), place);
     if (has_energy) add_energy(values[names.size()], values.back(), place, read.curve);

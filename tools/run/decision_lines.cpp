@@ -49,8 +49,8 @@ bool read_decision_lines(const fs::path& run, const char* name, std::size_t end,
       const std::size_t iteration = iteration_of(json);
       if (iteration < end) take(iteration, json, row);
     } catch (const std::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), json_reason(error),
-                                 command_to_fly_again(run, "--candidates")));
+      throw BadInput("{}: {}; {} writes it anew", to_string(place), json_reason(error),
+                     command_to_fly_again(run, "--candidates"));
     }
   });
   return !text.empty();

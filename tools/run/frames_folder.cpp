@@ -52,8 +52,7 @@ Image image_of(const ColourFrame& frame, const CameraConfig& camera) {
 fs::path image_named(const fs::path& folder, std::string_view name, const TextPlace& place) {
   const fs::path file(trimmed(name));
   if (file.empty() || file != file.filename() || !fs::exists(folder / file)) {
-    throw BadInput(
-        fmt::format("{}: no image `{}` in {}", to_string(place), file.string(), folder.string()));
+    throw BadInput("{}: no image `{}` in {}", to_string(place), file.string(), folder.string());
   }
   return folder / file;
 }
@@ -64,8 +63,7 @@ RecordedFrame frame_of(std::string_view row, const std::vector<FrameCamera>& cam
   cells.resize(12);
   const auto camera = std::ranges::find(cameras, cells[1], &FrameCamera::name);
   if (camera == cameras.end()) {
-    throw BadInput(
-        fmt::format("{}: camera `{}` is not in {}", to_string(place), cells[1], kCamerasFile));
+    throw BadInput("{}: camera `{}` is not in {}", to_string(place), cells[1], kCamerasFile);
   }
   std::array<double, 8> numbers{};  // time x y z qx qy qz qw
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -116,8 +114,7 @@ FrameCamera camera_of(const Json& json) {
     c.lens = std::make_shared<const Lens>(c.width_px, c.height_px, pinhole, distortion);
   }
   if (is_camera) return c;
-  throw BadInput(
-      fmt::format("camera '{}': sizes, focal lengths and depth scale must be positive", c.name));
+  throw BadInput("camera '{}': sizes, focal lengths and depth scale must be positive", c.name);
 }
 
 std::vector<FrameCamera> read_cameras(const fs::path& path) {
@@ -126,7 +123,7 @@ std::vector<FrameCamera> read_cameras(const fs::path& path) {
   try {
     for (const Json& entry : Json::parse(text)) cameras.push_back(camera_of(entry));
   } catch (const std::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+    throw BadInput("{}: {}", path.string(), json_reason(error));
   }
   return cameras;
 }
@@ -135,9 +132,8 @@ std::vector<FrameCamera> read_cameras(const fs::path& path) {
 template <typename AnyImage>
 AnyImage of_size(AnyImage image, const FrameCamera& camera, const fs::path& file) {
   if (image.width_px == camera.width_px && image.height_px == camera.height_px) return image;
-  throw BadInput(fmt::format("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`",
-                             file.string(), image.width_px, image.height_px, camera.width_px,
-                             camera.height_px, camera.name));
+  throw BadInput("{}: {} x {} px, but cameras.json says {} x {} px of camera `{}`", file.string(),
+                 image.width_px, image.height_px, camera.width_px, camera.height_px, camera.name);
 }
 
 std::string none_kept(const fs::path& run) {
@@ -199,8 +195,7 @@ FrameRecord read_frames(const fs::path& run) {
   const fs::path poses = folder / kPosesFile;
   for (const fs::path& file : {poses, folder / kCamerasFile}) {
     if (fs::exists(file)) continue;
-    throw BadInput(
-        fmt::format("{}: is missing; {} flies it again and writes it", file.string(), again));
+    throw BadInput("{}: is missing; {} flies it again and writes it", file.string(), again);
   }
   FrameRecord record{.cameras = read_cameras(folder / kCamerasFile), .frames = {}};
   const std::string text = read_file(poses);
@@ -212,7 +207,7 @@ FrameRecord read_frames(const fs::path& run) {
     if (!row.empty()) record.frames.push_back(frame_of(row, record.cameras, place));
   };
   for_each_line(rest, poses, take, 2);
-  if (record.frames.empty()) throw BadInput(fmt::format("{}: holds no frame", poses.string()));
+  if (record.frames.empty()) throw BadInput("{}: holds no frame", poses.string());
   return record;
 }
 

@@ -121,8 +121,7 @@ std::string take_check(std::string_view before, std::string_view& row, const Tex
   row = row.substr(0, std::min(comma, row.size()));
   const std::string check = check_of(before, row);
   if (cell == check) return check;
-  throw BadInput(
-      fmt::format("{}: is not the row that was written: edited or damaged", to_string(place)));
+  throw BadInput("{}: is not the row that was written: edited or damaged", to_string(place));
 }
 
 /// A row's cells, read left to right.
@@ -147,7 +146,7 @@ struct Row {
   void operator()(std::string_view, Sampler& sampler) {
     const std::string_view cell = next_part(rest, ',');
     const auto known = sampler_named(cell);
-    if (!known) throw BadInput(fmt::format("{}: '{}' is no sampler", to_string(place), cell));
+    if (!known) throw BadInput("{}: '{}' is no sampler", to_string(place), cell);
     sampler = *known;
   }
   void operator()(std::string_view name, std::vector<Vec3>& points_m) {
@@ -155,8 +154,7 @@ struct Row {
     while (!points.empty()) {
       std::string_view point = next_part(points, ';');
       if (std::count(point.begin(), point.end(), ':') != 2) {
-        throw BadInput(
-            fmt::format("{}: {} '{}' is no list of x:y:z", to_string(place), name, point));
+        throw BadInput("{}: {} '{}' is no list of x:y:z", to_string(place), name, point);
       }
       Vec3& p_m = points_m.emplace_back();
       for (double& x : p_m) x = to_number(next_part(point, ':'), place, name);
@@ -169,17 +167,16 @@ std::string header_text(Columns columns) { return joined(cells_of({}, columns).n
 ViewRecord record_of(std::string_view row, Columns columns, int iteration, const TextPlace& place) {
   const std::size_t expected = cells_of({}, columns).names.size();
   if (split(row, ',').size() != expected) {
-    throw BadInput(fmt::format("{}: '{}' must have {} columns", to_string(place), row, expected));
+    throw BadInput("{}: '{}' must have {} columns", to_string(place), row, expected);
   }
   ViewRecord view;
   visit_columns(view, columns, Row{row, place});
   if (view.iteration != iteration) {
-    throw BadInput(
-        fmt::format("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration));
+    throw BadInput("{}: '{}' must be iteration {}", to_string(place), view.iteration, iteration);
   }
   const int number = view.decision.plan_view;
   if (number < 1 || number > std::max(iteration, 1)) {
-    throw BadInput(fmt::format("{}: no plan has a view {} here", to_string(place), number));
+    throw BadInput("{}: no plan has a view {} here", to_string(place), number);
   }
   return view;
 }

@@ -28,12 +28,12 @@ class SummaryReader {
  public:
   explicit SummaryReader(const fs::path& run) : path_(run / kSummaryFile) {
     if (!RunFiles(run).find(kSummaryFile)) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "{}: holds no summary.json: no run, or one that is not finished; {} finishes it",
-          run.string(), command_to_resume(run)));
+          run.string(), command_to_resume(run));
     }
     json_ = Json::parse(read_json_text(path_), nullptr, false);
-    if (!json_.is_object()) throw BadInput(fmt::format("{}: is no JSON object", path_.string()));
+    if (!json_.is_object()) throw BadInput("{}: is no JSON object", path_.string());
   }
 
   bool has(const std::string& pointer) const { return json_.contains(Json::json_pointer(pointer)); }
@@ -45,7 +45,7 @@ class SummaryReader {
   template <typename Value>
   void read(Value& value, const std::string& pointer) const {
     const Json::json_pointer where(pointer);
-    if (!has(pointer)) throw BadInput(fmt::format("{}: {}: is missing", path_.string(), pointer));
+    if (!has(pointer)) throw BadInput("{}: {}: is missing", path_.string(), pointer);
     const Json& json = json_.at(where);
     if constexpr (IsOptional<Value>::value) {
       if (!json.is_null()) read(value.emplace(), pointer);
@@ -56,10 +56,10 @@ class SummaryReader {
                           : kIsCount ? json.is_number_unsigned()
                                      : json.is_string();
       if (!is_one) {
-        throw BadInput(fmt::format("{}: {}: {} is no {}", path_.string(), pointer, json.dump(),
-                                   kIsNumber  ? "number"
-                                   : kIsCount ? "count"
-                                              : "text"));
+        throw BadInput("{}: {}: {} is no {}", path_.string(), pointer, json.dump(),
+                       kIsNumber  ? "number"
+                       : kIsCount ? "count"
+                                  : "text");
       }
       value = json.get<Value>();
     }
@@ -94,10 +94,10 @@ RunSummary read_summary(const fs::path& run) {
 void need_views_of_summary(const fs::path& csv, const RunSummary& summary,
                            std::span<const ViewRecord> views) {
   if (!summary.views_sha256 || *summary.views_sha256 == views_sha256(views)) return;
-  throw BadInput(fmt::format(
+  throw BadInput(
       "{}: holds other rows than the run of summary.json wrote: edited, damaged, or files of two "
       "runs? {} flies it again",
-      csv.string(), command_to_fly_again(csv.parent_path())));
+      csv.string(), command_to_fly_again(csv.parent_path()));
 }
 
 RunFigures read_run_figures(const fs::path& run) {
@@ -105,10 +105,10 @@ RunFigures read_run_figures(const fs::path& run) {
   std::uint64_t schema = 0;
   summary.read(schema, "/schema");
   if (schema != kSummarySchema) {
-    throw BadInput(fmt::format(
-        "{}: schema {} of another version; `gnbv score {} --update` scores "
-        "the run anew and makes it {}",
-        (run / kSummaryFile).string(), schema, shell_word(run.string()), kSummarySchema));
+    throw BadInput(
+        "{}: schema {} of another version; `gnbv score {} --update` scores the run anew and makes "
+        "it {}",
+        (run / kSummaryFile).string(), schema, shell_word(run.string()), kSummarySchema);
   }
   RunFigures figures;
   summary.read(figures.scenario, "/scenario");
@@ -155,9 +155,8 @@ RunFigures read_run_figures(const fs::path& run) {
       [&](const std::string& pointer, double& value) { summary.read(value, pointer); });
   figures.curve = std::move(coverage.curve);
   if (figures.curve.coverage.size() != static_cast<std::size_t>(figures.iterations) + 1) {
-    throw BadInput(fmt::format("{}: {} rows for the profile and {} views",
-                               (run / kCoverageFile).string(), figures.curve.coverage.size(),
-                               figures.iterations));
+    throw BadInput("{}: {} rows for the profile and {} views", (run / kCoverageFile).string(),
+                   figures.curve.coverage.size(), figures.iterations);
   }
   return figures;
 }

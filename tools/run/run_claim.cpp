@@ -28,9 +28,8 @@ RunClaim::RunClaim(fs::path folder) : folder_(std::move(folder)), made_(missing_
   make_folder(folder_);
   lock_ = FileLock::take(folder_ / kLockFile);
   if (lock_) return;
-  throw BadInput(
-      fmt::format("{}: another gnbv flies into it now: wait for it, or choose another --out",
-                  folder_.string()));
+  throw BadInput("{}: another gnbv flies into it now: wait for it, or choose another --out",
+                 folder_.string());
 }
 
 RunClaim RunClaim::of_free_folder(const std::string& name) {

@@ -43,9 +43,9 @@ void need_inside(const ViewRecord& view, const Scenario& scenario, const fs::pat
   places_m.push_back(view.decision.view.p_world_m);
   for (const Vec3& p_m : places_m) {
     if (scenario.workspace_m.exteriorDistance(p_m) <= kRounding_m) continue;
-    throw BadInput(fmt::format(
-        "{}:{}: view {} leads to {:g} {:g} {:g} m, outside the workspace: {}", file.string(),
-        view.iteration + 2, view.iteration, p_m.x(), p_m.y(), p_m.z(), kOtherRecord));
+    throw BadInput("{}:{}: view {} leads to {:g} {:g} {:g} m, outside the workspace: {}",
+                   file.string(), view.iteration + 2, view.iteration, p_m.x(), p_m.y(), p_m.z(),
+                   kOtherRecord);
   }
 }
 
@@ -83,21 +83,17 @@ void need_usable(const fs::path& folder, const Scenario& scenario, bool resume) 
   std::error_code ignored;
   const bool holds_a_run = fs::exists(folder / kScenarioFile, ignored);
   if (!holds_a_run && !holds_only_leftovers(folder)) {
-    throw BadInput(fmt::format("{}: is not empty and holds no run{}: choose another --out",
-                               folder.string(),
-                               resume ? fmt::format(" to go on with (no {})", kScenarioFile) : ""));
+    throw BadInput("{}: is not empty and holds no run{}: choose another --out", folder.string(),
+                   resume ? fmt::format(" to go on with (no {})", kScenarioFile) : "");
   }
   if (holds_a_run && !resume) {
-    throw BadInput(
-        fmt::format("{}: holds a run already: add --resume to continue it, or choose "
-                    "another --out",
-                    folder.string()));
+    throw BadInput("{}: holds a run already: add --resume to continue it, or choose another --out",
+                   folder.string());
   }
   if (holds_a_run && !is_run_of(folder, scenario)) {
     throw BadInput(
-        fmt::format("{}: the run there is of another configuration: only the same one "
-                    "can be resumed",
-                    (folder / kScenarioFile).string()));
+        "{}: the run there is of another configuration: only the same one can be resumed",
+        (folder / kScenarioFile).string());
   }
 }
 
@@ -137,10 +133,9 @@ void RunDirectory::need_as_recorded(const ViewRecord& view) const {
   const std::optional<Difference> difference = first_difference(view, recorded_[i]);
   if (!difference) return;
   throw BadInput(
-      fmt::format("{}: view {}: {} is {} when it is flown again, recorded was {}: {}; {} "
-                  "flies it anew",
-                  folder_.string(), i, difference->column, difference->now, difference->recorded,
-                  kOtherRecord, command_to_fly_again(folder_)));
+      "{}: view {}: {} is {} when it is flown again, recorded was {}: {}; {} flies it anew",
+      folder_.string(), i, difference->column, difference->now, difference->recorded, kOtherRecord,
+      command_to_fly_again(folder_));
 }
 
 void RunDirectory::need_as_recorded(const MissionResult& result) const {
@@ -153,8 +148,8 @@ void RunDirectory::need_as_recorded(const MissionResult& result) const {
       is_short ? fmt::format("flown again it ends after {} views ({}), recorded were {}",
                              result.views.size(), name_of(result.termination), recorded_.size())
                : "flown again it comes to another result than its summary.json holds";
-  throw BadInput(fmt::format("{}: {}: {}; {} flies it anew", folder_.string(), what, kOtherRecord,
-                             command_to_fly_again(folder_)));
+  throw BadInput("{}: {}: {}; {} flies it anew", folder_.string(), what, kOtherRecord,
+                 command_to_fly_again(folder_));
 }
 
 void RunDirectory::write_profile(const Belief& belief) const {

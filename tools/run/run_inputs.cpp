@@ -84,7 +84,7 @@ std::vector<RunInput> read_inputs(const fs::path& run) {
       inputs.push_back({input.at("key"), input.at("name"), input.at("sha256")});
     }
   } catch (const Json::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+    throw BadInput("{}: {}", path.string(), json_reason(error));
   }
   return inputs;
 }
@@ -95,8 +95,8 @@ void need_same_inputs(const fs::path& run, std::span<const RunInput> now,
   for (const RunInput& input : now) {
     const auto then = std::ranges::find(began, input.key, &RunInput::key);
     if (then == began.end() || then->sha256 == input.sha256) continue;
-    throw BadInput(fmt::format("{}: {}: {} is not what the run began with: {}",
-                               (run / kInputsFile).string(), input.key, input.name, advice));
+    throw BadInput("{}: {}: {} is not what the run began with: {}", (run / kInputsFile).string(),
+                   input.key, input.name, advice);
   }
 }
 

@@ -56,10 +56,10 @@ void read_views(const RunFiles& files, RunRecord& record) {
 void need_views_of_run(const RunRecord& record, const fs::path& csv, const RunSummary& summary) {
   const auto ended_with = static_cast<std::size_t>(record.figures->iterations);
   if (record.views.size() == ended_with) return need_views_of_summary(csv, summary, record.views);
-  throw BadInput(fmt::format(
-      "{}: holds {} views, and the run of summary.json has {}: damaged, or "
-      "files of two runs? {} flies it again",
-      csv.string(), record.views.size(), ended_with, command_to_fly_again(record.folder)));
+  throw BadInput(
+      "{}: holds {} views, and the run of summary.json has {}: damaged, or files of two runs? {} "
+      "flies it again",
+      csv.string(), record.views.size(), ended_with, command_to_fly_again(record.folder));
 }
 
 void read_figures(const RunFiles& files, RunRecord& record) {
@@ -96,9 +96,8 @@ RunRecord read_run(const fs::path& given) {
   const fs::path yaml = folder / kScenarioFile;
   if (!fs::exists(yaml)) {
     throw BadInput(
-        fmt::format("{}: no run directory: scenario.yaml is missing; `gnbv run SCENARIO --out {}` "
-                    "makes one",
-                    folder.string(), shell_word(folder.string())));
+        "{}: no run directory: scenario.yaml is missing; `gnbv run SCENARIO --out {}` makes one",
+        folder.string(), shell_word(folder.string()));
   }
   const RunFiles files(folder);
   RunRecord record{
@@ -124,8 +123,7 @@ RunCloud read_run_cloud(const RunRecord& record) {
   const RunFiles files(record.folder);
   for (const char* name : {kCloudFile, kProfileCloudFile}) {
     if (files.find(name)) continue;
-    throw BadInput(
-        fmt::format("{}; {}", absence_of(record.folder / name), command_to_finish(record.folder)));
+    throw BadInput("{}; {}", absence_of(record.folder / name), command_to_finish(record.folder));
   }
   RunCloud cloud{.points_world_m = read_cloud(record.folder / kCloudFile),
                  .profile_points = read_cloud(record.folder / kProfileCloudFile).size(),
@@ -140,10 +138,8 @@ RunCloud read_run_cloud(const RunRecord& record) {
   }
   // a run that ends in flight has points that came after its last view
   if (cloud.view_points.size() != record.views.size() || before > cloud.points_world_m.size()) {
-    throw BadInput(
-        fmt::format("{}: {} points do not fit profile.ply and iterations.csv: files of "
-                    "two runs?",
-                    (record.folder / kCloudFile).string(), cloud.points_world_m.size()));
+    throw BadInput("{}: {} points do not fit profile.ply and iterations.csv: files of two runs?",
+                   (record.folder / kCloudFile).string(), cloud.points_world_m.size());
   }
   return cloud;
 }

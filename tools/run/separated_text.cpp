@@ -69,7 +69,7 @@ std::string read_json_text(const std::filesystem::path& file) {
     deep += text[i] == '[' || text[i] == '{' ? 1 : 0;
     deep -= text[i] == ']' || text[i] == '}' ? 1 : 0;
     if (deep > kMostDeep) {
-      throw BadInput(fmt::format("{}: its JSON is more than {} deep", file.string(), kMostDeep));
+      throw BadInput("{}: its JSON is more than {} deep", file.string(), kMostDeep);
     }
   }
   return text;
@@ -85,7 +85,7 @@ double to_number(std::string_view text, const TextPlace& place, std::string_view
   double value = 0.0;
   const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), value);
   if (error != std::errc{} || end != t.data() + t.size() || !std::isfinite(value)) {
-    throw BadInput(fmt::format("{}: {} `{}` is not a number", to_string(place), what, t));
+    throw BadInput("{}: {} `{}` is not a number", to_string(place), what, t);
   }
   return value;
 }
@@ -93,7 +93,7 @@ double to_number(std::string_view text, const TextPlace& place, std::string_view
 int to_count(std::string_view text, const TextPlace& place, std::string_view what) {
   const double value = to_number(text, place, what);
   if (value < 0.0 || value > 1e9 || value != std::floor(value)) {
-    throw BadInput(fmt::format("{}: {} `{}` is not a count", to_string(place), what, text));
+    throw BadInput("{}: {} `{}` is not a count", to_string(place), what, text);
   }
   return static_cast<int>(value);
 }
@@ -107,8 +107,7 @@ std::string json_reason(const std::exception& error) {
 void need_header(std::string_view row, std::string_view header, const TextPlace& place,
                  std::string_view help) {
   if (row == header) return;
-  throw BadInput(
-      fmt::format("{}: is not the header that this version writes{}", to_string(place), help));
+  throw BadInput("{}: is not the header that this version writes{}", to_string(place), help);
 }
 
 std::string pose_text(const Isometry& T, char separator) {
@@ -121,7 +120,7 @@ std::string pose_text(const Isometry& T, char separator) {
 Isometry to_pose(std::span<const double, 7> numbers, const TextPlace& place) {
   const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
   if (std::abs(q.norm() - 1.0) > 1e-3) {
-    throw BadInput(fmt::format("{}: qx qy qz qw are no unit quaternion", to_string(place)));
+    throw BadInput("{}: qx qy qz qw are no unit quaternion", to_string(place));
   }
   Isometry T = Isometry::Identity();
   T.translate(Vec3(numbers[0], numbers[1], numbers[2]));

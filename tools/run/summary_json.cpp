@@ -215,12 +215,12 @@ void rescore_summary(const fs::path& run, const MissionScore& score) {
   const fs::path path = run / kSummaryFile;
   const Json json = Json::parse(read_json_text(path), nullptr, false);
   if (!json.is_object() || !json.contains("schema") || !json.contains("coverage")) {
-    throw BadInput(fmt::format("{}: is not the summary of a run", path.string()));
+    throw BadInput("{}: is not the summary of a run", path.string());
   }
   const Json& schema = json.at("schema");
   if (!schema.is_number_unsigned() || schema.get<std::uint64_t>() > kSummarySchema) {
-    throw BadInput(fmt::format("{}: /schema: {} is none that this version knows, 1 to {}",
-                               path.string(), schema.dump(), kSummarySchema));
+    throw BadInput("{}: /schema: {} is none that this version knows, 1 to {}", path.string(),
+                   schema.dump(), kSummarySchema);
   }
   const std::string summary =
       with_score(json, score).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -59,7 +59,7 @@ MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace
   MadePlan made;
   const double iteration = json.at("iteration");
   if (iteration < 1.0 || iteration > 1e9 || iteration != std::floor(iteration)) {
-    throw BadInput(fmt::format("{}: iteration {} is none", to_string(place), iteration));
+    throw BadInput("{}: iteration {} is none", to_string(place), iteration);
   }
   made.iteration = static_cast<std::size_t>(iteration);
   for (const Json& pose : json.at("tour")) {
@@ -71,9 +71,7 @@ MadePlan made_plan_of(const Json& json, const RunRecord& record, const TextPlace
   for (const PatchSource source : kSources) {
     for (const Json& cube : json.at("cubes").at(std::string(name_of(source)))) {
       const auto [x, y, z, expected] = cube.get<std::array<double, 4>>();
-      if (expected < 0.0) {
-        throw BadInput(fmt::format("{}: a cube of {} voxels", to_string(place), expected));
-      }
+      if (expected < 0.0) throw BadInput("{}: a cube of {} voxels", to_string(place), expected);
       made.plan.cubes.push_back({source, checked_place_m({x, y, z}, record, place), expected});
     }
   }
@@ -97,14 +95,13 @@ std::size_t index_in(const Values& values, const Value& value, const TextPlace& 
                      const char* what) {
   const auto at = std::ranges::find(values, value);
   if (at != values.end()) return static_cast<std::size_t>(at - values.begin());
-  throw BadInput(fmt::format("{}: '{}' is no {}", to_string(place), value, what));
+  throw BadInput("{}: '{}' is no {}", to_string(place), value, what);
 }
 
 ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
   const std::vector<std::string_view> cells = split(row, ',');
   if (cells.size() != split(kPredictionsHeader, ',').size()) {
-    throw BadInput(
-        fmt::format("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader));
+    throw BadInput("{}: '{}' is no row of {}", to_string(place), row, kPredictionsHeader);
   }
   std::array<std::string_view, kPatchSources> sources;
   std::ranges::transform(kSources, sources.begin(), [](PatchSource of) { return name_of(of); });
@@ -112,8 +109,8 @@ ViewOutcome outcome_of(std::string_view row, const TextPlace& place) {
   gain.source = kSources[index_in(sources, cells[1], place, "source of patches")];
   gain.observations = static_cast<std::size_t>(to_count(cells[2], place, "looks"));
   if (gain.observations >= kObservationBins) {
-    throw BadInput(fmt::format("{}: looks {} must be less than {}", to_string(place),
-                               gain.observations, kObservationBins));
+    throw BadInput("{}: looks {} must be less than {}", to_string(place), gain.observations,
+                   kObservationBins);
   }
   gain.incidence = index_in(kIncidenceFrom_deg, to_count(cells[3], place, "incidence_deg"), place,
                             "beginning of a bin of incidence");
@@ -141,14 +138,13 @@ std::string plan_jsonl(std::span<const MadePlan> plans) {
 
 std::vector<MadePlan> read_plans(const RunRecord& record) {
   if (!traits_of(record.scenario.planner).makes_tours) {
-    throw BadInput(fmt::format("{}: was flown by {}, which plans no tour; {} flies one",
-                               record.folder.string(), record.scenario.planner.utility.name,
-                               command_to_fly_again(record.folder, "--utility tour")));
+    throw BadInput("{}: was flown by {}, which plans no tour; {} flies one", record.folder.string(),
+                   record.scenario.planner.utility.name,
+                   command_to_fly_again(record.folder, "--utility tour"));
   }
   const fs::path path = record.folder / kPlanFile;
   if (!RunFiles(record.folder).find(kPlanFile)) {
-    throw BadInput(
-        fmt::format("{}: is missing; {} writes it", path.string(), command_to_write_plans(record)));
+    throw BadInput("{}: is missing; {} writes it", path.string(), command_to_write_plans(record));
   }
   std::vector<MadePlan> plans;
   for_each_line(read_file(path), path, [&](std::string_view row, const TextPlace& place) {
@@ -156,12 +152,12 @@ std::vector<MadePlan> read_plans(const RunRecord& record) {
     try {
       plans.push_back(made_plan_of(Json::parse(row), record, place));
     } catch (const Json::exception& error) {
-      throw BadInput(fmt::format("{}: {}; {} writes it anew", to_string(place), json_reason(error),
-                                 command_to_write_plans(record)));
+      throw BadInput("{}: {}; {} writes it anew", to_string(place), json_reason(error),
+                     command_to_write_plans(record));
     }
     if (plans.back().iteration <= before) {
-      throw BadInput(fmt::format("{}: iteration {} comes after {}", to_string(place),
-                                 plans.back().iteration, before));
+      throw BadInput("{}: iteration {} comes after {}", to_string(place), plans.back().iteration,
+                     before);
     }
   });
   return plans;

@@ -11,11 +11,11 @@ namespace {
 TrajectorySample sample_of(std::string_view row, const TextPlace& place) {
   std::array<double, 8> values{};  // time x y z qx qy qz qw
   for (double& value : values) {
-    if (row.empty()) throw BadInput(fmt::format("{}: fewer than 8 values", to_string(place)));
+    if (row.empty()) throw BadInput("{}: fewer than 8 values", to_string(place));
     value = to_number(next_part(row, ' '), place, "one of the 8 values");
     row = trimmed(row);
   }
-  if (!row.empty()) throw BadInput(fmt::format("{}: more than 8 values", to_string(place)));
+  if (!row.empty()) throw BadInput("{}: more than 8 values", to_string(place));
   return {values[0], to_pose(std::span(values).subspan<1>(), place)};
 }
 
@@ -43,19 +43,19 @@ std::vector<TrajectorySample> read_trajectory_tum(const std::filesystem::path& f
     if (row.empty() || row.front() == '#') return;
     const TrajectorySample sample = sample_of(row, place);
     if (!samples.empty() && sample.time_s < samples.back().time_s) {
-      throw BadInput(fmt::format("{}: time {} s goes back", to_string(place), sample.time_s));
+      throw BadInput("{}: time {} s goes back", to_string(place), sample.time_s);
     }
     need_near_workspace(sample.T_world_body.translation(), workspace_m, place);
     samples.push_back(sample);
   });
-  if (samples.empty()) throw BadInput(fmt::format("{}: holds no pose", file.string()));
+  if (samples.empty()) throw BadInput("{}: holds no pose", file.string());
   return samples;
 }
 
 void need_near_workspace(const Vec3& p_world_m, const Box3& workspace_m, const TextPlace& place) {
   if (workspace_m.exteriorDistance(p_world_m) < workspace_m.diagonal().norm()) return;
-  throw BadInput(fmt::format("{}: stands at {:g} {:g} {:g} m, far out of the workspace",
-                             to_string(place), p_world_m.x(), p_world_m.y(), p_world_m.z()));
+  throw BadInput("{}: stands at {:g} {:g} {:g} m, far out of the workspace", to_string(place),
+                 p_world_m.x(), p_world_m.y(), p_world_m.z());
 }
 
 }  // namespace gnbv

@@ -42,9 +42,9 @@ std::vector<std::string> cells_of(std::string_view row, bool is_csv) {
 void need_columns(const std::vector<std::string>& columns, const TextPlace& place) {
   const auto fail = [&](const std::string& what) {
     throw BadInput(
-        fmt::format("{}: {}; a header is x,y,z,yaw_deg or x,y,z,qx,qy,qz,qw, in any "
-                    "order, with pitch_deg where the cameras hang on a gimbal",
-                    to_string(place), what));
+        "{}: {}; a header is x,y,z,yaw_deg or x,y,z,qx,qy,qz,qw, in any order, with pitch_deg "
+        "where the cameras hang on a gimbal",
+        to_string(place), what);
   };
   const auto count = [&](std::string_view name) {
     return std::count(columns.begin(), columns.end(), name);
@@ -68,18 +68,18 @@ double to_number_within(std::string_view text, const TextPlace& place, const std
   const double value = to_number(text, place, name);
   const double limit = kLimits.at(name);
   if (std::abs(value) <= limit) return value;
-  throw BadInput(fmt::format("{}: {} `{}` is out of range (allowed: from {} to {})",
-                             to_string(place), name, trimmed(text), -limit, limit));
+  throw BadInput("{}: {} `{}` is out of range (allowed: from {} to {})", to_string(place), name,
+                 trimmed(text), -limit, limit);
 }
 
 /// As scenario.yaml will hold it, so that the same bits come back from there.
 double heading_rad(const Isometry& T_world_body, const TextPlace& place) {
   const double tilt_rad = std::acos(std::clamp(T_world_body.linear()(2, 2), -1.0, 1.0));
   if (tilt_rad > kMaxTilt_rad) {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "{}: qx qy qz qw tilt the body by {:.0f} degrees, and views are taken level: a pose has to "
         "be that of the body (x forward, y left, z up), not of a camera (z forward)",
-        to_string(place), rad_to_deg(tilt_rad)));
+        to_string(place), rad_to_deg(tilt_rad));
   }
   return written_angle_rad(yaw_of(T_world_body));
 }
@@ -114,9 +114,8 @@ ViewPose ViewLines::read_row(std::string_view row) {
   const TextPlace place{source_, line_};
   const std::vector<std::string> cells = cells_of(row, form_ == Form::csv);
   if (cells.size() != columns_.size()) {
-    throw BadInput(fmt::format("{}: `{}` has {} values, not {}: {}", to_string(place), row,
-                               cells.size(), columns_.size(),
-                               fmt::join(columns_, form_ == Form::csv ? "," : " ")));
+    throw BadInput("{}: `{}` has {} values, not {}: {}", to_string(place), row, cells.size(),
+                   columns_.size(), fmt::join(columns_, form_ == Form::csv ? "," : " "));
   }
   std::map<std::string, double> of;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -145,7 +144,7 @@ std::vector<ViewPose> read_user_views(const fs::path& file) {
   for_each_line(whole_lines(file), file, [&](std::string_view line, const TextPlace&) {
     if (const auto view = lines.read(line)) views.push_back(*view);
   });
-  if (views.empty()) throw BadInput(fmt::format("{}: holds no view", file.string()));
+  if (views.empty()) throw BadInput("{}: holds no view", file.string());
   return views;
 }
 

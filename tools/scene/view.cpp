@@ -46,7 +46,7 @@ Vec3 vector_at(const nlohmann::json& json, const char* key) {
   const Vec3 p_m = are_numbers ? Vec3(values[0], values[1], values[2]) : Vec3(Vec3::Zero());
   constexpr double kFarthest_m = 1e6;
   if (!are_numbers || !(p_m.cwiseAbs().maxCoeff() < kFarthest_m)) {
-    throw BadInput(fmt::format("{}: {} is not three numbers of metres", key, values.dump()));
+    throw BadInput("{}: {} is not three numbers of metres", key, values.dump());
   }
   return p_m;
 }
@@ -64,7 +64,7 @@ RenderView read_camera(const std::filesystem::path& path) {
     const Vec3 target_m = vector_at(json, "target_m");
     const nlohmann::json fov_y_deg = json.value("fov_y_deg", nlohmann::json(30.0));
     if (!fov_y_deg.is_number() || !(fov_y_deg > 0.0 && fov_y_deg < 180.0)) {
-      throw BadInput(fmt::format("fov_y_deg: {} is no number between 0 and 180", fov_y_deg.dump()));
+      throw BadInput("fov_y_deg: {} is no number between 0 and 180", fov_y_deg.dump());
     }
     view.fov_y_rad = deg_to_rad(fov_y_deg);
     view.focus_m = (target_m - position_m).norm();
@@ -72,7 +72,7 @@ RenderView read_camera(const std::filesystem::path& path) {
     view.T_world_camera = look_at(position_m, target_m);
     view.to_light_world = key_light(view.T_world_camera);
   } catch (const std::exception& error) {
-    throw BadInput(fmt::format("{}: {}", path.string(), json_reason(error)));
+    throw BadInput("{}: {}", path.string(), json_reason(error));
   }
   return view;
 }
@@ -99,8 +99,7 @@ RenderView frame_points(std::span<const Vec3> points_world_m, const ViewAngles& 
                         int width_px, int height_px, const FrameMargins& margins) {
   if (points_world_m.empty()) throw BadInput("nothing to draw: the scene holds no point");
   if (width_px < 1 || height_px < 1) {
-    throw BadInput(
-        fmt::format("picture size {} x {} px: both must be at least 1", width_px, height_px));
+    throw BadInput("picture size {} x {} px: both must be at least 1", width_px, height_px);
   }
   RenderView view;
   view.width_px = width_px;
@@ -179,8 +178,8 @@ CameraChoice choose_camera(const std::string& name_or_file) {
     names.push_back(preset.name);
   }
   if (!std::filesystem::exists(name_or_file)) {
-    throw BadInput(fmt::format("--camera {}: no such file, and no preset ({}there are: {})",
-                               name_or_file, did_you_mean(name_or_file, names), join(names)));
+    throw BadInput("--camera {}: no such file, and no preset ({}there are: {})", name_or_file,
+                   did_you_mean(name_or_file, names), join(names));
   }
   return {.angles = {}, .camera = read_camera(name_or_file)};
 }

@@ -66,8 +66,8 @@ void fly_entry(const fs::path& folder, const EntryFolder& entry,
       throw CommandFailed("interrupted; with --resume the same command goes on");
     }
     if (outcomes[i].status == CellStatus::failed) {
-      throw CommandFailed(fmt::format("{}: {}; with --resume it is flown again", cells[i].scenario,
-                                      outcomes[i].failure));
+      throw CommandFailed("{}: {}; with --resume it is flown again", cells[i].scenario,
+                          outcomes[i].failure);
     }
   }
 }
@@ -101,14 +101,12 @@ Submission submission_of(const fs::path& folder, const EntryWords& words) {
     }
   }
   if (!loose.empty()) {
-    throw BadInput(fmt::format("track {}: not frozen yet, so that nothing can be submitted: {}",
-                               track.name, fmt::join(loose, ", ")));
+    throw BadInput("track {}: not frozen yet, so that nothing can be submitted: {}", track.name,
+                   fmt::join(loose, ", "));
   }
   if (!missing.empty()) {
-    throw BadInput(
-        fmt::format("{}: not flown by this program: {}; `gnbv bench run` with --resume "
-                    "flies them",
-                    folder.string(), fmt::join(missing, ", ")));
+    throw BadInput("{}: not flown by this program: {}; `gnbv bench run` with --resume flies them",
+                   folder.string(), fmt::join(missing, ", "));
   }
   submission.figures = track_figures(entry.suite, submission.missions);
   return submission;

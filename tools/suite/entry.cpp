@@ -66,14 +66,13 @@ void need_one_planner(const EntryPlanner& planner, const SuiteTask& task,
   const std::string flown = scenarios.of(task, planner.settings).planner.utility.name;
   if (flown != entered) {
     throw BadInput(
-        fmt::format("settings: planner.utility.name: value '{}': names another planner than the "
-                    "one that is entered",
-                    flown));
+        "settings: planner.utility.name: value '{}': names another planner than the one that is "
+        "entered",
+        flown);
   }
   if (is_own && planner.name != entered && std::ranges::count(planner_names(), planner.name) > 0) {
-    throw BadInput(
-        fmt::format("name: value '{}': is another planner of gnbv's than {}, which flies",
-                    planner.name, entered));
+    throw BadInput("name: value '{}': is another planner of gnbv's than {}, which flies",
+                   planner.name, entered);
   }
 }
 
@@ -100,20 +99,20 @@ EntryPlanner entry_planner(const std::string& text, const std::vector<std::strin
       return set.text == "planner.utility.python.kind=planner";
     };
     if (std::ranges::none_of(method.overrides, is_planner)) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "--planner {}: is a utility, which nobody could fly again without running it; a planner "
           "is a function of two parameters (docs/tutorials/planner-python.md)",
-          text));
+          text);
     }
     planner = {.name = method.name,
                .kind = EntryKind::views,
                .asks = method.overrides,
                .run_arguments = {"--round-views"}};
   } else {
-    throw BadInput(fmt::format(
+    throw BadInput(
         "--planner {}: is no planner of gnbv ({}allowed: {}), no FILE.py:FUNCTION and no command "
         "with its words",
-        text, did_you_mean(text, known), join(known)));
+        text, did_you_mean(text, known), join(known));
   }
   if (text == kRouteName) throw BadInput("--planner route: its views come from a command");
   for (const std::string& setting : settings) planner.settings.push_back({setting});
@@ -168,8 +167,8 @@ Scenario TaskScenarios::of(const SuiteTask& task, const std::vector<Override>& p
   const SuiteTrack& track = suite_.track(task.track);
   const auto need_none = [&](const std::vector<std::string>& keys) {
     if (keys.empty()) return;
-    throw BadInput(fmt::format("{}, {}: a planner may not set {} in this track", task.track,
-                               task.structure, fmt::join(keys, ", ")));
+    throw BadInput("{}, {}: a planner may not set {} in this track", task.track, task.structure,
+                   fmt::join(keys, ", "));
   };
   std::vector<std::string> beyond;
   for (const Override& set : planner) {  // first: such a one may name a file that would be read
@@ -201,7 +200,7 @@ std::vector<SuiteTask> asked_tasks(const Suite& suite, const std::string& track,
   std::vector<SuiteTask> tasks = suite.tasks_of(suite.track(track).name);
   for (const std::string& name : only) {
     if (std::ranges::count(tasks, name, &SuiteTask::structure) > 0) continue;
-    throw BadInput(fmt::format("--task {}: track {} has no such task", name, track));
+    throw BadInput("--task {}: track {} has no such task", name, track);
   }
   std::erase_if(tasks, [&](const SuiteTask& task) {
     return !only.empty() && std::ranges::count(only, task.structure) == 0;
@@ -217,10 +216,10 @@ std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask
     const SuiteStructure& structure = suite.structure_of(task);
     const std::string mesh = scenarios.mesh_sha256(structure);
     if (!structure.sha256.empty() && structure.sha256 != mesh) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "{}: its mesh has the SHA-256 {}, in the suite it is {}: this program makes another "
           "structure than the suite was frozen with",
-          structure.name, mesh, structure.sha256));
+          structure.name, mesh, structure.sha256);
     }
     std::vector<Override> all = planner.settings;
     all.insert(all.end(), planner.asks.begin(), planner.asks.end());
@@ -232,9 +231,9 @@ std::vector<Cell> cells_of_entry(const Suite& suite, const std::vector<SuiteTask
     }
     const std::string& utility = scenario.planner.utility.name;
     if (traits_of(scenario.planner).knows_structure && !planner.name.starts_with(utility)) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "name: value '{}': of {}, which knows the mesh: the name has to begin with that",
-          planner.name, utility));
+          planner.name, utility);
     }
     if (cells.empty()) need_one_planner(planner, task, scenarios);
     const std::string id = namer.id_of(scenario);

@@ -65,8 +65,7 @@ void claim_entry_folder(const fs::path& folder, const EntryFolder& entry, bool r
   const fs::path lock_file = folder / kLockFile;  // stays: by it a claim at work is known
   make_folder(folder);
   if (!fs::is_empty(folder) && !fs::exists(lock_file) && !fs::exists(file)) {
-    throw BadInput(
-        fmt::format("{}: is not empty and holds no entry: choose another -o", folder.string()));
+    throw BadInput("{}: is not empty and holds no entry: choose another -o", folder.string());
   }
   std::optional<FileLock> lock;
   while (!(lock = FileLock::take(lock_file))) {
@@ -76,12 +75,10 @@ void claim_entry_folder(const fs::path& folder, const EntryFolder& entry, bool r
     const bool is_same = read_file(file) == text_of(entry) &&
                          read_file(folder / kSuiteFile) == suite_yaml(entry.suite);
     if (!is_same) {
-      throw BadInput(fmt::format("{}: is of another planner, track or suite: choose another -o",
-                                 file.string()));
+      throw BadInput("{}: is of another planner, track or suite: choose another -o", file.string());
     }
     if (resume) return;
-    throw BadInput(
-        fmt::format("{}: holds this entry already: --resume goes on with it", folder.string()));
+    throw BadInput("{}: holds this entry already: --resume goes on with it", folder.string());
   }
   write_file_atomically(folder / kSuiteFile, suite_yaml(entry.suite));
   write_file_atomically(file, text_of(entry));
@@ -101,7 +98,7 @@ EntryFolder read_entry_folder(const fs::path& folder) {
     entry.planner.asks = settings_of(json.at("asks"));
     json.at("run_arguments").get_to(entry.planner.run_arguments);
   } catch (const Json::exception&) {
-    throw BadInput(fmt::format("{}: is damaged: no folder of `gnbv bench run`", file.string()));
+    throw BadInput("{}: is damaged: no folder of `gnbv bench run`", file.string());
   }
   entry.suite = read_suite(read_file(yaml), yaml.string());
   return entry;
@@ -110,9 +107,7 @@ EntryFolder read_entry_folder(const fs::path& folder) {
 ScratchFolder::ScratchFolder() {
   std::error_code error;
   fs::path within = fs::temp_directory_path(error);
-  if (error) {
-    throw BadInput(fmt::format("TMPDIR: the folder for temporary files: {}", error.message()));
-  }
+  if (error) throw BadInput("TMPDIR: the folder for temporary files: {}", error.message());
   std::string path = (within / "gnbv-bench-XXXXXX").string();
   if (mkdtemp(path.data()) == nullptr) refuse_to_write(path, errno);
   path_ = path;
@@ -128,8 +123,8 @@ double planning_s(const fs::path& run) {
   double all_s = 0.0;
   for (const ViewRecord& view : views) {
     if (!(view.wall.plan_s >= 0.0)) {
-      throw BadInput(fmt::format("{}: plan_s: value {}: expects a number, 0 or more",
-                                 (run / kIterationsFile).string(), view.wall.plan_s));
+      throw BadInput("{}: plan_s: value {}: expects a number, 0 or more",
+                     (run / kIterationsFile).string(), view.wall.plan_s);
     }
     all_s += view.wall.plan_s;
   }
@@ -148,9 +143,7 @@ std::map<std::string, std::string> mission_records(const fs::path& run, EntryKin
 SubmittedMission mission_of_run(const fs::path& run, const SuiteTask& task, const SuiteTrack& track,
                                 EntryKind kind) {
   const RunFigures figures = read_run_figures(run);
-  if (figures.curve.accurate.empty()) {
-    throw BadInput(fmt::format("{}: has no accurate coverage", run.string()));
-  }
+  if (figures.curve.accurate.empty()) throw BadInput("{}: has no accurate coverage", run.string());
   SubmittedMission mission{.figures = task_figures(figures, task, track.effort)};
   mission.figures.plan_s = planning_s(run);
   Sha256 hash;

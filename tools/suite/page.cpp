@@ -56,8 +56,8 @@ void write_suite_page(const Suite& suite, const std::vector<Submission>& entries
     const ScratchFolder scratch;  // nobody else's missions count as flown
     const auto differences = verify_submission(entry, suite, scratch.path(), flights, &runs);
     if (!differences.empty()) {
-      throw CommandFailed(fmt::format("{}: is not what it says:\n{}", entry.file.string(),
-                                      fmt::join(differences, "\n")));
+      throw CommandFailed("{}: is not what it says:\n{}", entry.file.string(),
+                          fmt::join(differences, "\n"));
     }
     write_mission_pages(entry, runs, folder, flights);
   }

@@ -118,14 +118,12 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
   const SuiteTrack& track = suite.track(submission.track);
   const std::vector<SuiteTask> tasks = asked_tasks(suite, track.name, flights.only);
   if (fs::exists(folder / kCellsFolder)) {  // they would count as flown
-    throw BadInput(fmt::format("{}: holds missions already: choose another -o", folder.string()));
+    throw BadInput("{}: holds missions already: choose another -o", folder.string());
   }
   TaskScenarios scenarios(suite, folder / "meshes");
   std::vector<Cell> cells;
   for (const SuiteTask& task : tasks) {
-    if (!task.is_frozen()) {
-      throw BadInput(fmt::format("{}, {}: not frozen yet", task.track, task.structure));
-    }
+    if (!task.is_frozen()) throw BadInput("{}, {}: not frozen yet", task.track, task.structure);
     cells.push_back(prepare(submission, suite, task, folder, scenarios));
   }
   const std::vector<CellOutcome> outcomes = fly(cells, folder, flights);
@@ -137,8 +135,8 @@ std::vector<std::string> verify(const Submission& submission, const Suite& suite
     const FlownAgain compare{task, differences};
     if (outcomes[i].status == CellStatus::missing) throw CommandFailed("interrupted");
     if (outcomes[i].status != CellStatus::done) {  // a full disk, say: no word on the submission
-      throw CommandFailed(fmt::format("{}: {}: could not be flown: {}", submission.file.string(),
-                                      task, outcomes[i].failure));
+      throw CommandFailed("{}: {}: could not be flown: {}", submission.file.string(), task,
+                          outcomes[i].failure);
     }
     const fs::path& run = outcomes[i].run;
     if (runs != nullptr) runs->push_back(run);

@@ -50,13 +50,11 @@ CloudSurface surface_of_cloud(const fs::path& cloud, const Vec3& offset_m,
   const std::vector<Vec3f> points_m = read_cloud(cloud, offset_m, &notes);
   Box3 box_m;
   for (const Vec3f& p_m : points_m) {
-    if (!p_m.allFinite()) throw BadInput(fmt::format("{}: has points that are not finite", name));
+    if (!p_m.allFinite()) throw BadInput("{}: has points that are not finite", name);
     box_m.extend(p_m.cast<double>());
   }
   const double leaf_m = leaf_of(points_m, box_m, threads);
-  if (!(leaf_m > 0.0)) {
-    throw BadInput(fmt::format("{}: its {} points lie on no surface", name, points_m.size()));
-  }
+  if (!(leaf_m > 0.0)) throw BadInput("{}: its {} points lie on no surface", name, points_m.size());
   make_folder(folder);
   progress(0.05, "normals");
   const OrientedCloud oriented = oriented_by_neighbours(leaf_filter(points_m, leaf_m), threads);

@@ -22,7 +22,7 @@ class OutFolder {
   explicit OutFolder(fs::path path) : path_(std::move(path)) {
     is_new_ = make_folder(path_);
     if (::access(path_.c_str(), W_OK | X_OK) != 0) {
-      throw BadInput(fmt::format("{}: cannot write into the folder", path_.string()));
+      throw BadInput("{}: cannot write into the folder", path_.string());
     }
   }
   ~OutFolder() {

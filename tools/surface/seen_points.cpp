@@ -144,8 +144,7 @@ std::vector<Stretch> stretches_of(const RunRecord& record, const RunCloud& cloud
 SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threads) {
   const std::filesystem::path file = record.folder / kCloudFile;
   if (cloud.points_world_m.empty()) {
-    throw BadInput(
-        fmt::format("{}: holds no point; {}", file.string(), command_to_fly_again(record.folder)));
+    throw BadInput("{}: holds no point; {}", file.string(), command_to_fly_again(record.folder));
   }
   const auto leaf_m = static_cast<float>(record.scenario.planner.cloud.profile_leaf_m);
   SeenPoints seen{.points_world_m = uncovered_profile(cloud, leaf_m, threads),
@@ -174,10 +173,10 @@ SeenPoints seen_points(const RunRecord& record, const RunCloud& cloud, int threa
       continue;
     }
     if (stretch.poses_world_m.empty()) {
-      throw BadInput(fmt::format(
+      throw BadInput(
           "{}: nobody knows where its points were seen from: neither trajectory.tum nor "
           "iterations.csv holds a pose; {}",
-          file.string(), command_to_fly_again(record.folder)));
+          file.string(), command_to_fly_again(record.folder));
     }
     find_sensors(tree, stretch, leaf_m, threads, seen);
   }

@@ -103,9 +103,9 @@ TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSe
                       const std::string& name, int threads, const SurfaceProgress& progress) {
   if (cloud.points_world_m.empty()) {
     throw BadInput(
-        fmt::format("{}: its points lie on no surface: they are fewer than 3, or on one "
-                    "line; a run of more views sees more",
-                    name));
+        "{}: its points lie on no surface: they are fewer than 3, or on one line; a run of more "
+        "views sees more",
+        name);
   }
   GNBV_CHECK(cloud.points_world_m.size() == cloud.normals_world.size() &&
                  cloud.points_world_m.size() == cloud.spacing_m.size(),
@@ -120,17 +120,16 @@ TriangleMesh shape_of(const OrientedCloud& cloud, double leaf_m, const SurfaceSe
   const TriangleMesh near =
       trimmed(closed, cloud, {.reach_m = settings.trim_m, .reach_max_m = 6.0 * leaf_m}, threads);
   if (near.faces.empty()) {
-    throw BadInput(
-        fmt::format("{}: {} points hold no surface together; a larger --trim-m keeps more of it",
-                    name, cloud.points_world_m.size()));
+    throw BadInput("{}: {} points hold no surface together; a larger --trim-m keeps more of it",
+                   name, cloud.points_world_m.size());
   }
   const double scrap_m2 = kScrapSide_leaves * leaf_m * kScrapSide_leaves * leaf_m;
   TriangleMesh shape = without_scraps(near, scrap_m2);
   if (shape.faces.empty()) {
     throw BadInput(
-        fmt::format("{}: {} points hold nothing but scraps of less than {:.2g} m2 "
-                    "together; a run of more views sees more",
-                    name, cloud.points_world_m.size(), scrap_m2));
+        "{}: {} points hold nothing but scraps of less than {:.2g} m2 together; a run of more "
+        "views sees more",
+        name, cloud.points_world_m.size(), scrap_m2);
   }
   return shape;
 }

@@ -177,8 +177,7 @@ TexturedMesh read_surface(const fs::path& folder) {
   for (std::size_t begin = 0; begin < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (!reader.read(std::string_view(text).substr(begin, end - begin))) {
-      throw BadInput(
-          fmt::format("{}:{}: no line of a file that gnbv surface writes", path.string(), number));
+      throw BadInput("{}:{}: no line of a file that gnbv surface writes", path.string(), number);
     }
     begin = end + 1;
   }

@@ -129,8 +129,8 @@ void fit(std::vector<AtlasPatch>& patches, std::size_t swatches, int max_side_px
     }
     if (layout.height + swatches_height_px(swatches, *width) <= max_side_px) return;
   }
-  throw BadInput(fmt::format("--texture-px: {} charts and {} swatches do not fit into {} x {} px",
-                             patches.size(), swatches, max_side_px, max_side_px));
+  throw BadInput("--texture-px: {} charts and {} swatches do not fit into {} x {} px",
+                 patches.size(), swatches, max_side_px, max_side_px);
 }
 
 constexpr std::uint8_t kEmpty = 128;  // grey

@@ -133,8 +133,7 @@ constexpr const char* kOtherBudgets =
 
 [[noreturn]] void refuse(const std::string& scenario, const std::string& one,
                          const std::string& other, const char* what) {
-  throw BadInput(
-      fmt::format("{}: {} and {} {}: they cannot be compared", scenario, one, other, what));
+  throw BadInput("{}: {} and {} {}: they cannot be compared", scenario, one, other, what);
 }
 
 /// Before anything is flown: what is measured by unlike voxels or budgets cannot be set beside each

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 std::vector<SweepScenario> scenarios_of(const CompareRequest& request) {
   if (request.scenarios.empty()) throw BadInput("compare: needs a SCENARIO, or --from");
   if (request.scenarios.size() > 1 && !request.structure.mesh.empty()) {
-    throw BadInput(fmt::format("--mesh {}: one structure for {} scenarios; compare them one by one",
-                               request.structure.mesh, request.scenarios.size()));
+    throw BadInput("--mesh {}: one structure for {} scenarios; compare them one by one",
+                   request.structure.mesh, request.scenarios.size());
   }
   std::vector<SweepScenario> scenarios;
   for (const std::string& given : request.scenarios) {
@@ -34,7 +34,7 @@ std::vector<SweepScenario> scenarios_of(const CompareRequest& request) {
     };
     std::string name = load_flown_scenario(given).name;
     if (!is_new(name)) name = fs::path(given).stem().string();  // two files may make one scenario
-    if (!is_new(name)) throw BadInput(fmt::format("{}: two scenarios are named '{}'", given, name));
+    if (!is_new(name)) throw BadInput("{}: two scenarios are named '{}'", given, name);
     scenarios.push_back({.name = name,
                          .scenario = given,
                          .mesh = request.structure.mesh,
@@ -53,7 +53,7 @@ std::vector<SweepMethod> methods_with_views(const CompareRequest& request) {
     return method.name == kRouteName;
   });
   if (route == methods.end()) {
-    throw BadInput(fmt::format("--views {}: goes with {} among --utilities", file, kRouteName));
+    throw BadInput("--views {}: goes with {} among --utilities", file, kRouteName);
   }
   route->overrides.push_back(views_of_file(file));
   return methods;
@@ -75,8 +75,8 @@ std::string baseline_of(const CompareRequest& request, const std::vector<std::st
   if (std::find(methods.begin(), methods.end(), request.baseline) != methods.end()) {
     return request.baseline;
   }
-  throw BadInput(fmt::format("--baseline: value '{}': no method of this comparison; it has: {}",
-                             request.baseline, fmt::join(methods, ", ")));
+  throw BadInput("--baseline: value '{}': no method of this comparison; it has: {}",
+                 request.baseline, fmt::join(methods, ", "));
 }
 
 std::vector<Cell> cells_to_fly(const CompareRequest& request, int seeds) {
@@ -149,12 +149,12 @@ ComparedMissions compare_missions(const CompareRequest& request, const BenchOpti
     baseline = baseline_of(request, methods);
   }
   if (methods.size() < 2) {
-    throw BadInput(fmt::format("{}: one method: nothing to compare",
-                               request.from.empty() ? "compare" : request.from.front().string()));
+    throw BadInput("{}: one method: nothing to compare",
+                   request.from.empty() ? "compare" : request.from.front().string());
   }
   if (std::ranges::count(runs.rows, baseline, &MissionRow::method) == 0) {
-    throw CommandFailed(fmt::format("no mission of the baseline, {}, is done:\n{}", baseline,
-                                    fmt::join(runs.notes, "\n")));
+    throw CommandFailed("no mission of the baseline, {}, is done:\n{}", baseline,
+                        fmt::join(runs.notes, "\n"));
   }
   all.comparison = compare(runs.rows, baseline);
   TextTable table = comparison_table(all.comparison);

@@ -35,8 +35,8 @@ Cell cell_from(const Json& json, const fs::path& manifest) {
   json.at("scenario").get_to(cell.scenario);
   json.at("method").get_to(cell.method);
   if (!json.at("seed").is_number_unsigned()) {
-    throw BadInput(fmt::format("{}: seed: value '{}': expects a whole number, 0 or more",
-                               manifest.string(), json.at("seed").dump()));
+    throw BadInput("{}: seed: value '{}': expects a whole number, 0 or more", manifest.string(),
+                   json.at("seed").dump());
   }
   json.at("seed").get_to(cell.seed);
   json.at("id").get_to(cell.id);
@@ -116,19 +116,17 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   try {
     const Json json = Json::parse(read_json_text(path));
     if (json.at("schema") != 1) {
-      throw BadInput(fmt::format("{}: schema: value '{}': expects 1", path.string(),
-                                 json.at("schema").dump()));
+      throw BadInput("{}: schema: value '{}': expects 1", path.string(), json.at("schema").dump());
     }
     manifest.file = json.value("file", "");
     for (const Json& item : json.at("cells")) {
       const Cell& cell = manifest.cells.emplace_back(cell_from(item, path));
       if (seen.insert({cell.scenario, cell.method, cell.seed}).second) continue;
-      throw BadInput(fmt::format("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario,
-                                 cell.method, cell.seed));
+      throw BadInput("{}: two cells of {}, {}, seed {}", path.string(), cell.scenario, cell.method,
+                     cell.seed);
     }
   } catch (const Json::exception& error) {
-    throw BadInput(
-        fmt::format("{}: is no manifest of a sweep: {}", path.string(), json_reason(error)));
+    throw BadInput("{}: is no manifest of a sweep: {}", path.string(), json_reason(error));
   }
   return manifest;
 }
@@ -137,7 +135,7 @@ std::vector<Cell> cells_of_manifest(const fs::path& folder) {
   const fs::path path = folder / kManifest;
   std::optional<Manifest> manifest = read_manifest(folder);
   if (!manifest) read_file(path);  // throws, with the cause
-  if (manifest->cells.empty()) throw BadInput(fmt::format("{}: has no cells", path.string()));
+  if (manifest->cells.empty()) throw BadInput("{}: has no cells", path.string());
   return std::move(manifest->cells);
 }
 
@@ -146,9 +144,8 @@ void require_folder_of(const fs::path& folder, const fs::path& yaml) {
   std::error_code ignored;
   const std::string file = path_in_manifest(yaml);
   if (!head || head->file == file || fs::equivalent(head->file, file, ignored)) return;
-  throw BadInput(
-      fmt::format("{}: is of {}, not of {}; --replace takes it for the latter, and its cells stay",
-                  (folder / kManifest).string(), head->file, file));
+  throw BadInput("{}: is of {}, not of {}; --replace takes it for the latter, and its cells stay",
+                 (folder / kManifest).string(), head->file, file);
 }
 
 std::string results_csv(std::span<const Cell> cells, std::span<const CellOutcome> outcomes) {

@@ -43,7 +43,7 @@ void take_field(const std::string& column, const std::string& text, const TextPl
   } else if (column == kSeed) {
     const char* const end = text.data() + text.size();
     if (std::from_chars(text.data(), end, row.seed) != std::from_chars_result{end, {}}) {
-      throw BadInput(fmt::format("{}: {}: '{}' is no seed", to_string(place), column, text));
+      throw BadInput("{}: {}: '{}' is no seed", to_string(place), column, text);
     }
   } else if (text == "inf") {
     row.figures[column] = std::numeric_limits<double>::infinity();
@@ -88,23 +88,22 @@ std::vector<MissionRow> read_missions(const fs::path& csv) {
       columns = csv_fields(trimmed(line));
       for (const auto& [name, word] : kWords) {
         if (std::ranges::count(columns, name) == 1) continue;
-        throw BadInput(
-            fmt::format("{}: has no column '{}': no file of missions", to_string(place), name));
+        throw BadInput("{}: has no column '{}': no file of missions", to_string(place), name);
       }
       return;
     }
     const std::vector<std::string> fields = csv_fields(line);
     if (fields.size() != columns.size()) {
-      throw BadInput(fmt::format("{}: {} fields of {} columns", to_string(place), fields.size(),
-                                 columns.size()));
+      throw BadInput("{}: {} fields of {} columns", to_string(place), fields.size(),
+                     columns.size());
     }
     MissionRow& row = missions.emplace_back();
     for (std::size_t i = 0; i < fields.size(); ++i) take_field(columns[i], fields[i], place, row);
     if (seen.insert({row.scenario, row.method, row.setting, row.seed}).second) return;
-    throw BadInput(fmt::format("{}: a second row of {}, {}, seed {}", to_string(place),
-                               row.scenario, row.method, row.seed));
+    throw BadInput("{}: a second row of {}, {}, seed {}", to_string(place), row.scenario,
+                   row.method, row.seed);
   });
-  if (missions.empty()) throw BadInput(fmt::format("{}: holds no missions", csv.string()));
+  if (missions.empty()) throw BadInput("{}: holds no missions", csv.string());
   return missions;
 }
 

@@ -182,8 +182,8 @@ class Pool {
                                                             .is_apart = true,
                                                             .kept_open = one.lock.descriptor()});
     if (one.child->start_error() != 0) {
-      throw BadInput(fmt::format("{}, its output in {}: {}", one.command[0], files.log.string(),
-                                 one.child->end().text()));
+      throw BadInput("{}, its output in {}: {}", one.command[0], files.log.string(),
+                     one.child->end().text());
     }
     running_.push_back(std::move(one));
   }
@@ -227,8 +227,8 @@ class Pool {
     std::error_code error;
     fs::rename(files.part, files.run, error);
     if (error && !fs::exists(files.run)) {
-      throw BadInput(fmt::format("{}: cannot be renamed to {}: {}", files.part.string(),
-                                 files.run.string(), error.message()));
+      throw BadInput("{}: cannot be renamed to {}: {}", files.part.string(), files.run.string(),
+                     error.message());
     }
     // where locks do not reach (two machines, NFS without locks) another may have been first
     if (error) fs::remove_all(files.part);

@@ -52,7 +52,7 @@ std::string batch_script(const SlurmOptions& options, std::size_t max_array_size
   for (const auto& [option, text] : {std::pair("--slurm-args", options.arguments),
                                      std::pair("--out", full_path(options.folder))}) {
     if (text.find('\n') == std::string::npos) continue;
-    throw BadInput(fmt::format("{}: has more than one line, and sbatch reads one", option));
+    throw BadInput("{}: has more than one line, and sbatch reads one", option);
   }
   const std::size_t chunk = (options.cells + max_array_size - 1) / max_array_size;
   const std::size_t tasks = (options.cells + chunk - 1) / chunk;
@@ -96,12 +96,11 @@ std::string submit(const fs::path& script) {
   const std::string words = fs::exists(said) ? read_file(said) : "";
   fs::remove(said);
   if (end.start_error != 0) {
-    throw BadInput(
-        fmt::format("sbatch: not found on this machine; {} is written", script.string()));
+    throw BadInput("sbatch: not found on this machine; {} is written", script.string());
   }
   if (!end.is_success()) {
-    throw BadInput(fmt::format("sbatch {}: {}", script.string(),
-                               words.substr(0, words.find_last_not_of('\n') + 1)));
+    throw BadInput("sbatch {}: {}", script.string(),
+                   words.substr(0, words.find_last_not_of('\n') + 1));
   }
   print_to_stderr(printable(words));
   return id;

@@ -26,8 +26,7 @@ const PaperTable& paper_table_of(const std::string& scenario, const std::string&
   if (paper != nullptr) return *paper;
   std::string known;
   for (const PaperTable& t : paper_tables()) known += fmt::format(" {}", t.scenario);
-  throw BadInput(
-      fmt::format("{}: the paper has no table for this scenario; it has:{}", asked_for, known));
+  throw BadInput("{}: the paper has no table for this scenario; it has:{}", asked_for, known);
 }
 
 Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scenario& first,
@@ -59,7 +58,7 @@ Sweep sweep_of(const TableRequest& request, const PaperTable& paper, const Scena
   std::set<std::string> names;
   for (const SweepMethod& method : sweep.methods) {
     if (!names.insert(method.name).second) {
-      throw BadInput(fmt::format("--utilities: two rows are called '{}'", method.name));
+      throw BadInput("--utilities: two rows are called '{}'", method.name);
     }
   }
   sweep.seeds = seeds_from(first.seed, seeds);
@@ -138,10 +137,10 @@ void need_one_scene(const std::vector<MissionRow>& rows) {
     const auto mesh = [](const MissionRow& of) {
       return fmt::format("{:.8}", of.structure_sha256);
     };
-    throw BadInput(fmt::format(
+    throw BadInput(
         "--from: rows of {} around {} ({}) and of {} around {} ({}): a table is of one scenario "
         "and structure; compare --from takes several",
-        first.scenario, first.structure, mesh(first), row.scenario, row.structure, mesh(row)));
+        first.scenario, first.structure, mesh(first), row.scenario, row.structure, mesh(row));
   }
 }
 

@@ -3,17 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <string_view>
 #include <utility>
+
+#include "sim/core/error.hpp"
 
 namespace gnbv {
 
 /// What was asked for did not come about (exit code 1): a mission that ended in a collision. Is
 /// said as the last word.
-class CommandFailed : public std::runtime_error {
+class CommandFailed : public SaidError {
  public:
-  using std::runtime_error::runtime_error;
+  using SaidError::SaidError;
 };
 
 /// As it is, flushed.
