@@ -9,7 +9,6 @@
 
 #include "bench/score/surface_reference.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 
 namespace gnbv {

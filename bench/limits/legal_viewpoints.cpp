@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/config.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 

@@ -1,11 +1,9 @@
 #include "bench/score/cloud_faults.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "bench/score/cloud_metrics.hpp"
-#include "bench/score/voxel_set.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -1,10 +1,7 @@
 #include "bench/score/cloud_metrics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "bench/score/point_tree.hpp"
 #include "bench/score/voxel_set.hpp"

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "bench/score/cloud_metrics.hpp"
-
 namespace gnbv {
 namespace {
 

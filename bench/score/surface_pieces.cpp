@@ -1,7 +1,6 @@
 #include "bench/score/surface_pieces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bench/score/voxel_set.hpp"

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "bench/score/run_figures.hpp"
 #include "bench/suite/suite.hpp"

@@ -71,14 +71,13 @@ TextTable table_of(const Suite& suite, const SuiteTrack& track,
     row.push_back({verdict_of(standing, &standing == &sorted.front())});
     table.rows.push_back(std::move(row));
   }
-  table.notes = {fmt::format("score: accurate coverage at 0.05 m over the budget, as a share of "
-                             "the best known planner's; mean of {} structures, 95 % bootstrap "
-                             "interval over them",
-                             suite.tasks_of(track.name).size()),
-                 "to 90 %, to 95 %: of the ceiling, medians; -: half of the missions do not get "
-                 "there within the budget",
-                 "numbers as submitted; `gnbv bench verify` flies them again; planning times are "
-                 "stated"};
+  table.notes = {
+      fmt::format("score: accurate coverage at 0.05 m over the budget, as a share of the best "
+                  "known planner's; mean of {} structures, 95 % bootstrap interval over them",
+                  suite.tasks_of(track.name).size()),
+      "to 90 %, to 95 %: of the ceiling, medians; -: half of the missions do not get there within "
+      "the budget",
+      "numbers as submitted; `gnbv bench verify` flies them again; planning times are stated"};
   return table;
 }
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "sim/core/error.hpp"
 #include "sim/core/pose.hpp"
 #include "sim/mesh/collada_shape.hpp"
 #include "sim/mesh/plain_text.hpp"

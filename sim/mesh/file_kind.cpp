@@ -97,8 +97,8 @@ std::string what_it_is_instead(const std::filesystem::path& path, const std::str
 std::string no_faces_text(std::size_t points) {
   if (points == 0) return "holds no faces";
   return fmt::format(
-      "holds no faces, only {} points: as a cloud `gnbv score CLOUD --mesh MESH` "
-      "scores it, and `gnbv surface CLOUD` makes a mesh of it",
+      "holds no faces, only {} points: as a cloud `gnbv score CLOUD --mesh MESH` scores it, and "
+      "`gnbv surface CLOUD` makes a mesh of it",
       points);
 }
 

@@ -3,7 +3,6 @@
 #include <array>
 #include <set>
 
-#include "sim/core/error.hpp"
 #include "sim/mesh/gltf_looks.hpp"
 #include "sim/mesh/mesh_scene.hpp"
 #include "sim/mesh/polygon_mesh.hpp"

@@ -280,10 +280,9 @@ void ModelParts::finish(const fs::path& document) {
   pictures_.warn(reading.warnings);
   reading.files.insert(reading.files.end(), pictures_.files().begin(), pictures_.files().end());
   if (planes_ == 0) return;
-  reading.warnings.push_back(
-      fmt::format("{}: {} planes or heightmaps left out: the ground is "
-                  "ours, `terrain.path` takes a mesh of it",
-                  document.string(), planes_));
+  reading.warnings.push_back(fmt::format(
+      "{}: {} planes or heightmaps left out: the ground is ours, `terrain.path` takes a mesh of it",
+      document.string(), planes_));
 }
 
 bool is_model(const fs::path& path) {

@@ -1,10 +1,8 @@
 // read_obj() and read_obj_text() of sim/mesh/polygon_mesh.hpp.
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>

@@ -1,8 +1,6 @@
 // The PLY readers of sim/mesh/polygon_mesh.hpp.
 #include <algorithm>
-#include <cmath>
 
-#include "sim/core/file.hpp"
 #include "sim/mesh/ply_reader.hpp"
 #include "sim/mesh/polygon_mesh.hpp"
 

@@ -28,8 +28,7 @@ class StlText {
     scene_.lose(path_, lost_, "facets of fewer than three vertices");
     if (unknown_ > 0) {
       scene_.warnings.push_back(
-          fmt::format("{}: {} words that no STL file has passed over, the "
-                      "first in line {}",
+          fmt::format("{}: {} words that no STL file has passed over, the first in line {}",
                       path_.string(), unknown_, first_unknown_));
     }
     if (is_in_solid_) {
@@ -142,8 +141,7 @@ void read_stl_bytes(const std::filesystem::path& path, std::string_view bytes, M
   if (over == 0) return;
   scene.lost_faces += held - announced;
   scene.warnings.push_back(
-      fmt::format("{}: {} bytes after the {} triangles that its header "
-                  "announces left out",
+      fmt::format("{}: {} bytes after the {} triangles that its header announces left out",
                   path.string(), over, announced));
 }
 

@@ -258,8 +258,7 @@ void TextureFiles::warn(std::vector<std::string>& warnings) const {
     const std::string more =
         names.size() > kMostNames ? fmt::format(" and {} more", names.size() - kMostNames) : "";
     warnings.push_back(
-        fmt::format("{}: textures {}, shown in the plain colours of their "
-                    "materials: {}{}",
+        fmt::format("{}: textures {}, shown in the plain colours of their materials: {}{}",
                     mesh_.string(), why, fmt::join(first, ", "), more));
   }
 }

@@ -1,7 +1,5 @@
 #include "sim/mesh/triangle_mesh.hpp"
 
-#include <limits>
-
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/score/run_figures.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

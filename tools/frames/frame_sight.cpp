@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "sensors/camera_model.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
 
 namespace gnbv {

@@ -2,8 +2,6 @@
 // and the colours that the points of a run's cloud have by that.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>

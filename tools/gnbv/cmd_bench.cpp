@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "bench/suite/standings.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/figures/figure_files.hpp"

@@ -49,8 +49,7 @@ SparseModel sparse_model(const Export& e, const FrameRecord& frames) {
                          .threads = e.threads,
                          .progress = e.progress});
   if (!e.options.quiet) {
-    say("{} of the cloud's {} points are shown by two of the {} frames or more, in {} "
-        "observations",
+    say("{} of the cloud's {} points are shown by two of the {} frames or more, in {} observations",
         model.points_world_m.size(), cloud.points_world_m.size(), frames.frames.size(),
         model.observation_count());
   }

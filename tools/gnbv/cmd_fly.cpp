@@ -276,8 +276,8 @@ void add_fly_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--speed", options->speed,
-                   "simulated seconds per second. Setpoints have to come within "
-                   "COM_OF_LOSS_T / speed of wall time")
+                   "simulated seconds per second. Setpoints have to come within COM_OF_LOSS_T / "
+                   "speed of wall time")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
   command
@@ -287,10 +287,9 @@ void add_fly_command(CLI::App& app) {
                       "folder for the newest frame of each camera, CAMERA.npy: numpy.load() reads "
                       "depth, colour, K and time; under /dev/shm it is memory");
   command
-      ->add_option(
-          "--video", options->cameras.video_url,
-          "rtp://HOST:PORT, to which ffmpeg sends the colour of the first camera as H.264; "
-          "QGroundControl waits at port 5600")
+      ->add_option("--video", options->cameras.video_url,
+                   "rtp://HOST:PORT, to which ffmpeg sends the colour of the first camera as "
+                   "H.264; QGroundControl waits at port 5600")
       ->check([](const std::string& url) {
         return url.starts_with(kRtp) ? "" : fmt::format("value '{}': write rtp://HOST:PORT", url);
       });

@@ -136,8 +136,7 @@ void need_end_in_order(const ExecutedMission& mission, bool has_piped_views) {
       throw CommandFailed(result.failure);
     case Termination::off_course:
       throw CommandFailed(
-          "the vehicle was carried out of the workspace; the run directory shows "
-          "where");
+          "the vehicle was carried out of the workspace; the run directory shows where");
     case Termination::collision:
       throw CommandFailed("the vehicle hit something; the run directory shows where");
     case Termination::interrupted:

@@ -60,8 +60,7 @@ Scored score_file(ScoreOptions options, int threads) {
   for (const std::string& warning : warnings) say(warning);
   const DistanceScore& widest = scored.score.distances.at.back();
   if (widest.precision < 0.5) {
-    say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, "
-        "frame or mesh?",
+    say("{}: only {:.1f} % of the points lie within {} m of the mesh: another unit, frame or mesh?",
         options.target, 100.0 * widest.precision, widest.distance_m);
   }
   return scored;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/core/text.hpp"
-
 namespace gnbv {
 namespace {
 

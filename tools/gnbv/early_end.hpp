@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "planner/planners.hpp"
 #include "tools/run/mission_result.hpp"

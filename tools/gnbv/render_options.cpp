@@ -25,11 +25,10 @@ std::string help_on_what() {
 }
 
 void add_camera_options(CLI::App& command, RenderOptions& options) {
-  command.add_option(
-      "--camera", options.camera,
-      "iso, front, back, left, right, top, or a JSON file with position_m, target_m and "
-      "fov_y_deg; presets frame the picture by themselves (default: iso; a profile is seen from "
-      "higher above)");
+  command.add_option("--camera", options.camera,
+                     "iso, front, back, left, right, top, or a JSON file with position_m, target_m "
+                     "and fov_y_deg; presets frame the picture by themselves (default: iso; a "
+                     "profile is seen from higher above)");
   command.add_option("--azimuth-deg", options.azimuth_deg,
                      "from where to look: 0 east, 90 north (default: the camera's)");
   command

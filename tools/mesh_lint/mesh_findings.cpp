@@ -158,8 +158,7 @@ Finding floor_finding(const MeshReport& report, const Scenario& scenario, const 
   const double floor_m = scenario.planner.floor_z_m;
   const double share = share_below(report.lint, report.reading.mesh, floor_m);
   const std::string what = fmt::format(
-      "{} of the surface lies below planner.floor_z_m = {} m, where nothing is mapped "
-      "or counted",
+      "{} of the surface lies below planner.floor_z_m = {} m, where nothing is mapped or counted",
       percent(share), floor_m);
   const std::string fix =
       advice.floor.empty() ? "" : flag(advice.floor) + ", or raise it with structure.file.offset_m";
@@ -174,29 +173,26 @@ void add_face_findings(const MeshReport& report, Findings& out) {
   const std::size_t flat = lint.repeated_corners + lint.flat_faces;
   out.push_back(tallied(
       "flat faces", flat, Severity::note, "every face has an area",
-      fmt::format("{} without area ({} a point twice), left out when "
-                  "the file is read",
+      fmt::format("{} without area ({} a point twice), left out when the file is read",
                   counted(flat, "face", "faces"), counted(lint.repeated_corners, "names", "name")),
       ""));
-  out.push_back(tallied("duplicates", lint.duplicate.count, Severity::note,
-                        "no face is there twice",
-                        fmt::format("{} another one ({} of the surface)",
-                                    counted(lint.duplicate.count, "face repeats", "faces repeat"),
-                                    percent(lint.duplicate.area_m2 / area_m2)),
-                        "none needed; MeshLab: Filters > Cleaning and Repairing > Remove Duplicate "
-                        "Faces"));
-  out.push_back(tallied(
-      "two-sided", lint.two_sided.count, Severity::note, "no face lies back to back with another",
-      fmt::format("{} back to back ({} of the surface): the sheet counts twice in the "
-                  "area, once in the coverage",
-                  counted(lint.two_sided.count, "face lies", "faces lie"),
-                  percent(lint.two_sided.area_m2 / area_m2)),
-      ""));
+  out.push_back(
+      tallied("duplicates", lint.duplicate.count, Severity::note, "no face is there twice",
+              fmt::format("{} another one ({} of the surface)",
+                          counted(lint.duplicate.count, "face repeats", "faces repeat"),
+                          percent(lint.duplicate.area_m2 / area_m2)),
+              "none needed; MeshLab: Filters > Cleaning and Repairing > Remove Duplicate Faces"));
+  out.push_back(tallied("two-sided", lint.two_sided.count, Severity::note,
+                        "no face lies back to back with another",
+                        fmt::format("{} back to back ({} of the surface): the sheet counts twice "
+                                    "in the area, once in the coverage",
+                                    counted(lint.two_sided.count, "face lies", "faces lie"),
+                                    percent(lint.two_sided.area_m2 / area_m2)),
+                        ""));
   out.push_back(tallied(
       "edges", lint.open_edges + lint.crowded_edges, Severity::note,
       "closed: every edge joins two faces",
-      fmt::format("of {} {} open, {} more than two faces; nothing "
-                  "here needs a closed mesh",
+      fmt::format("of {} {} open, {} more than two faces; nothing here needs a closed mesh",
                   counted(lint.edges, "edge", "edges"), counted(lint.open_edges, "is", "are"),
                   counted(lint.crowded_edges, "joins", "join")),
       ""));
@@ -236,22 +232,22 @@ Finding vertices_finding(const MeshReport& report) {
       fmt::format("{} to no face{}",
                   counted(lint.unreferenced_vertices, "vertex belongs", "vertices belong"),
                   widens ? ", which widens the box of the structure" : ""),
-      "Blender: Mesh > Clean Up > Delete Loose; MeshLab: Filters > Cleaning and "
-      "Repairing > Remove Unreferenced Vertices");
+      "Blender: Mesh > Clean Up > Delete Loose; MeshLab: Filters > Cleaning and Repairing > Remove "
+      "Unreferenced Vertices");
 }
 
 void add_view_findings(const MeshReport& report, Findings& out) {
   const OutsideView& view = report.outside;
   const FaceTally& behind = view.from_behind;
   const double share = behind.area_m2 / view.area_m2;
-  out.push_back(tallied(
-      "facing", behind.count, share > 0.05 ? Severity::warning : Severity::note,
-      "no face shows only its back to the outside",
-      fmt::format("{}{} only the back to the outside ({} of the surface); the sensors see both "
-                  "sides, other programs may not",
-                  view.is_estimate ? "about " : "",
-                  counted(behind.count, "face shows", "faces show"), percent(share)),
-      "Blender: Edit Mode, Mesh > Normals > Recalculate Outside"));
+  out.push_back(
+      tallied("facing", behind.count, share > 0.05 ? Severity::warning : Severity::note,
+              "no face shows only its back to the outside",
+              fmt::format("{}{} only the back to the outside ({} of the surface); the sensors see "
+                          "both sides, other programs may not",
+                          view.is_estimate ? "about " : "",
+                          counted(behind.count, "face shows", "faces show"), percent(share)),
+              "Blender: Edit Mode, Mesh > Normals > Recalculate Outside"));
   const double hidden = view.hidden_area_m2 / view.area_m2;
   const std::string what =
       fmt::format("{} of the surface cannot be seen from anywhere outside{}", percent(hidden),

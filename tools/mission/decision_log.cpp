@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "planner/core/belief.hpp"
 #include "planner/view/visibility.hpp"
 #include "sim/core/error.hpp"
 

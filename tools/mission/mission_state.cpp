@@ -4,11 +4,8 @@
 #include <cmath>
 
 #include "bench/limits/legal_viewpoints.hpp"
-#include "planner/motion/free_space.hpp"
 #include "planner/motion/paths.hpp"
 #include "planner/planners.hpp"
-#include "sim/core/error.hpp"
-#include "sim/flight/guidance.hpp"
 #include "tools/mission/start_pose.hpp"
 #include "tools/mission/user_planner.hpp"
 

@@ -3,7 +3,6 @@
 #include <utility>
 #include <variant>
 
-#include "planner/motion/free_space.hpp"
 #include "tools/mission/mission_state.hpp"
 
 namespace gnbv {

@@ -1,7 +1,5 @@
 #include "tools/mission/python_script.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "sim/core/child_process.hpp"

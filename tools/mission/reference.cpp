@@ -52,8 +52,7 @@ void announce(const Scenario& scenario, const ReferenceCost& cost, int threads) 
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   const std::string what = fmt::format(
       "{}: {} m2 of surface, about {:.2g} million voxels of 0.05 m: what there is to see takes "
-      "some "
-      "{} on {} and {:.1f} GB of memory to find",
+      "some {} on {} and {:.1f} GB of memory to find",
       structure_name(scenario.structure), grouped(cost.area_m2, 0), 1e-6 * cost.voxels,
       duration_text(seconds), counted(static_cast<std::size_t>(threads), "thread"),
       cost.bytes / 0x1p30);

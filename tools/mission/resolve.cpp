@@ -1,7 +1,5 @@
 #include "tools/mission/resolve.hpp"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "scenarios/document.hpp"

@@ -136,8 +136,7 @@ std::string profile_warning(const Scenario& scenario, const RayScene& scene,
     if (!is_leg_clear(scene, at_m, to_m, hull_m)) {
       return fmt::format(
           "the profile's leg from [{:.2f}, {:.2f}, {:.2f}] to [{:.2f}, {:.2f}, {:.2f}] comes "
-          "nearer "
-          "than the hull's {} m to something solid: the mission may end there as collision; "
+          "nearer than the hull's {} m to something solid: the mission may end there as collision; "
           "workspace_m, no_fly, start.position_m or planner.profiling.method lead it elsewhere",
           at_m.x(), at_m.y(), at_m.z(), to_m.x(), to_m.y(), to_m.z(), hull_m);
     }

@@ -1,6 +1,5 @@
 // What was measured of the surface: points, the voxels that hold them, the surface made of them;
 // and what of the true one was found.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/planners.hpp"
 #include "tools/page/packs.hpp"
 #include "tools/run/tour_files.hpp"
 

@@ -5,7 +5,6 @@
 #include "scenarios/load.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
-#include "tools/mission/load_world.hpp"
 #include "tools/page/packs.hpp"
 #include "tools/run/file_names.hpp"
 

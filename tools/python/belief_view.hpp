@@ -5,8 +5,6 @@
 
 #include <memory>
 #include <mutex>
-#include <string>
-#include <vector>
 
 #include "tools/mission/belief_questions.hpp"
 #include "tools/python/arrays.hpp"

@@ -1,8 +1,6 @@
 #include "tools/render/geometry.hpp"
 
-#include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "sim/core/error.hpp"

@@ -203,8 +203,7 @@ std::unique_ptr<GlLibrary> open_library() {
   }
   throw BadInput(
       "pictures need Mesa 20 or later, with OpenGL 3.3: Debian package libosmesa6, or where there "
-      "is "
-      "none libegl1 with libegl-mesa0");
+      "is none libegl1 with libegl-mesa0");
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ std::string font_file() {
   }
   throw BadInput(
       "pictures need a font for their words, Debian package fonts-dejavu-core (tools/setup "
-      "installs "
-      "it) or the one that GNBV_FONT=FILE names; there is no " GNBV_FONT_FILES);
+      "installs it) or the one that GNBV_FONT=FILE names; there is no " GNBV_FONT_FILES);
 }
 
 void blend(Image& image, int x, int y, double share, const Rgb8& colour) {

@@ -2,7 +2,6 @@
 // the chosen one looks at (Figures 2, 5 and 6 of the paper).
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

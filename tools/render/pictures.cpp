@@ -1,7 +1,6 @@
 #include "tools/render/pictures.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "sim/core/error.hpp"
 

@@ -1,7 +1,5 @@
 #include "tools/run/cloud_file.hpp"
 
-#include <string>
-
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"

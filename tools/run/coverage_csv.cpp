@@ -1,7 +1,5 @@
 #include "tools/run/coverage_csv.hpp"
 
-#include <algorithm>
-
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/separated_text.hpp"

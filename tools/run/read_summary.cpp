@@ -1,9 +1,7 @@
-#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/run/coverage_csv.hpp"
 #include "tools/run/iterations_csv.hpp"

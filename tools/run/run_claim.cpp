@@ -1,9 +1,6 @@
 #include "tools/run/run_claim.hpp"
 
-#include <cerrno>
-
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tools/run/file_names.hpp"
 
 namespace gnbv {

@@ -5,7 +5,6 @@
 #include "bench/score/cloud_faults.hpp"
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "tools/run/cloud_file.hpp"
 #include "tools/run/iterations_csv.hpp"

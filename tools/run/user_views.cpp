@@ -7,7 +7,6 @@
 
 #include "scenarios/values.hpp"
 #include "sim/core/error.hpp"
-#include "sim/core/file.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/run/separated_text.hpp"
 

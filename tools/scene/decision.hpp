@@ -2,7 +2,6 @@
 // around, and the chosen one with what it looks at.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "planner/core/plan.hpp"

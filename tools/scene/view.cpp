@@ -1,7 +1,6 @@
 #include "tools/scene/view.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>

@@ -10,7 +10,6 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "sim/core/simd.hpp"
-#include "tools/run/run_inputs.hpp"
 #include "tools/suite/suite_work.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "assets/catalog.hpp"
 #include "assets/random/random_structure.hpp"
 #include "bench/score/content_cache.hpp"
 #include "planner/planners.hpp"

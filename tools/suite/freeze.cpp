@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bench/limits/ceiling.hpp"
-#include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/summary_json.hpp"
 #include "tools/suite/suite_work.hpp"

@@ -7,7 +7,6 @@
 #include "tools/mission/resolve.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
-#include "tools/run/user_views.hpp"
 #include "tools/suite/suite_work.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/text_table.hpp"
-#include "bench/score/cloud_metrics.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_lint.hpp"
@@ -88,8 +87,7 @@ std::string score_text(const SurfaceScore& score, const std::string& name, std::
   }
   table.notes.push_back(
       fmt::format("Accuracy {:.4f} m (surface to truth), completeness {:.4f} m (truth, as seen "
-                  "from outside, to "
-                  "surface); beyond {} m counts as that",
+                  "from outside, to surface); beyond {} m counts as that",
                   score.distances.accuracy_m, score.distances.completeness_m, kFarthest_m));
   return terminal_text(table, width);
 }

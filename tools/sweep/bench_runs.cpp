@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
 #include <tuple>
 #include <utility>
 
 #include "bench/compare/paper_figures.hpp"
-#include "bench/limits/ceiling.hpp"
 #include "scenarios/load.hpp"
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"

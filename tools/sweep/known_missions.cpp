@@ -1,5 +1,4 @@
 // Missions that a file of rows holds need not be flown again.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <deque>
 #include <map>
@@ -12,7 +11,6 @@
 #include <thread>
 
 #include "scenarios/load.hpp"
-#include "sim/core/child_process.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/mission/execute.hpp"

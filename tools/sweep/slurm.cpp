@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -72,8 +71,7 @@ std::string batch_script(const SlurmOptions& options, std::size_t max_array_size
       "#SBATCH --requeue\n"
       "#SBATCH --open-mode=append\n"
       "#SBATCH --output={}/slurm-%a.log\n"
-      "{}"
-      "first=$(( SLURM_ARRAY_TASK_ID * {} ))\n"
+      "{}first=$(( SLURM_ARRAY_TASK_ID * {} ))\n"
       "last={}\n"
       "echo \"cells $first-$last on $(hostname), job $SLURM_JOB_ID, restart "
       "${{SLURM_RESTART_COUNT:-0}}\"\n"

@@ -14,7 +14,6 @@
 #include "scenarios/load.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
-#include "tools/mission/load_world.hpp"
 
 namespace gnbv {
 namespace {
