@@ -64,9 +64,8 @@ std::string_view random_kind(std::uint64_t seed) {
 }
 
 std::uint64_t drawn_seed(std::string_view text, std::string_view kind, int draw) {
-  Sha256 hash;
-  hash.add(fmt::format("{} {} {}", text, kind, draw));
-  return std::stoull(hash.hex().substr(0, 8), nullptr, 16);
+  const std::string digits = sha256_of(fmt::format("{} {} {}", text, kind, draw));
+  return std::stoull(digits.substr(0, 8), nullptr, 16);
 }
 
 TriangleMesh make_random_structure(std::uint64_t seed, std::string_view kind) {

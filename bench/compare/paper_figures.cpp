@@ -86,9 +86,7 @@ bool is_papers_structure(const PaperTable& paper, std::string_view structure) {
   const std::filesystem::path file(structure);
   std::error_code ignored;
   if (paper.mesh_sha256.empty() || !std::filesystem::is_regular_file(file, ignored)) return false;
-  Sha256 hash;
-  hash.add(std::string_view(read_file(file)));
-  return hash.hex() == paper.mesh_sha256;
+  return sha256_of(read_file(file)) == paper.mesh_sha256;
 }
 
 }  // namespace gnbv

@@ -25,11 +25,8 @@ constexpr std::size_t kDigestLength = 64;
 constexpr std::size_t kHeaderLength = kCacheFirstWords.size() + kVersion.size() + kDigestLength + 1;
 
 std::string header_of(std::string_view program, std::string_view content) {
-  Sha256 sha;
-  sha.add(program);
-  sha.add("\n");
-  sha.add(content);
-  return fmt::format("{}{}{}\n", kCacheFirstWords, kVersion, sha.hex());
+  const std::string digest = sha256_of(fmt::format("{}\n{}", program, content));
+  return fmt::format("{}{}{}\n", kCacheFirstWords, kVersion, digest);
 }
 
 fs::path path_of(const fs::path& folder, std::string_view kind, std::string_view key) {

@@ -142,12 +142,6 @@ struct TextCheck {
   }
 };
 
-std::string hash_of(const std::string& text) {
-  Sha256 hash;
-  hash.add(text);
-  return hash.hex();
-}
-
 Json json_of(const Submission& entry) {
   Writer all;
   all("format", kFormat);
@@ -164,7 +158,7 @@ Json json_of(const Submission& entry) {
     missions.push_back(std::move(one.json));
   }
   all("missions", missions);
-  all(kSeal, hash_of(all.json.dump()));
+  all(kSeal, sha256_of(all.json.dump()));
   return std::move(all.json);
 }
 
@@ -224,7 +218,7 @@ void need_records(const Submission& entry, const std::string& place) {
       if (found == entry.records.end()) {
         throw BadInput("{}: member '{}': is missing", place, member);
       }
-      if (hash_of(found->second) != hash) {
+      if (sha256_of(found->second) != hash) {
         throw BadInput("{}: member '{}': is damaged or edited: its SHA-256 is another", place,
                        member);
       }
@@ -309,7 +303,7 @@ void write_submission(Submission submission, const fs::path& zip) {
   visit_words(submission, TextCheck{zip.string()});
   for (SubmittedMission& mission : submission.missions) {
     for (auto& [file, hash] : mission.files) {
-      hash = hash_of(submission.records.at(member_name(mission.figures.task, file)));
+      hash = sha256_of(submission.records.at(member_name(mission.figures.task, file)));
     }
   }
   std::map<std::string, std::string> members = submission.records;

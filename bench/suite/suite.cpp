@@ -279,9 +279,7 @@ std::string track_sha256(const Suite& suite, std::string_view track) {
   std::erase_if(own.structures, [&](const SuiteStructure& structure) {
     return std::ranges::count(own.tasks, structure.name, &SuiteTask::structure) == 0;
   });
-  Sha256 hash;
-  hash.add(suite_yaml(own));
-  return hash.hex();
+  return sha256_of(suite_yaml(own));
 }
 
 }  // namespace gnbv

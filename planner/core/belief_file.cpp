@@ -46,12 +46,6 @@ std::vector<std::pair<const char*, double>> settings_of(const Belief& belief) {
           {"floor_z_m", belief.floor_z_m}};
 }
 
-std::string digest_of(std::string_view content) {
-  Sha256 sha;
-  sha.add(content);
-  return sha.hex();
-}
-
 /// Appends seven bits a byte, the lowest first; the high bit says that more follow.
 void put_count(std::uint64_t count, std::string& out) {
   for (; count >= 0x80; count >>= 7) append_bytes(out, static_cast<std::uint8_t>(count | 0x80));
@@ -168,7 +162,7 @@ std::string_view checked_body(std::string_view content, const Reader& in) {
   }
   if (content.size() < kFirstLine.size() + kDigestLength) in.refuse("the belief is cut short");
   const std::string_view body = content.substr(0, content.size() - kDigestLength);
-  if (content.substr(body.size()) != digest_of(body)) {
+  if (content.substr(body.size()) != sha256_of(body)) {
     in.refuse("the belief is damaged or cut short: its SHA-256 does not match");
   }
   return body.substr(kFirstLine.size());
@@ -185,7 +179,7 @@ void write_belief(const Belief& belief, const std::filesystem::path& path) {
   out.append(reinterpret_cast<const char*>(points_m.data()), points_m.size_bytes());
   put_voxels(belief.grid, out);
   put_shadow(belief, out);
-  out += digest_of(out);
+  out += sha256_of(out);
   write_file_atomically(path, out);
 }
 

@@ -23,4 +23,10 @@ std::array<std::uint8_t, 32> Sha256::digest() {
 
 std::string Sha256::hex() { return fmt::format("{:02x}", fmt::join(digest(), "")); }
 
+std::string sha256_of(std::string_view text) {
+  Sha256 sha;
+  sha.add(text);
+  return sha.hex();
+}
+
 }  // namespace gnbv

@@ -36,4 +36,7 @@ class Sha256 {
   std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
 };
 
+/// hex() of a text alone.
+std::string sha256_of(std::string_view text);
+
 }  // namespace gnbv

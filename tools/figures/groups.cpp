@@ -45,10 +45,8 @@ Values values_of(const RunRecord& run, bool has_utility = true) {
   }
   if (own != nullptr && has_utility) {
     constexpr std::size_t kDigits = 6;
-    Sha256 hash;
-    hash.add(own->source);
     values.emplace_back(kFunction, fmt::format("{}:{}", own->file, own->function));
-    values.emplace_back(kText, hash.hex().substr(0, kDigits));
+    values.emplace_back(kText, sha256_of(own->source).substr(0, kDigits));
   }
   return values;
 }

@@ -108,10 +108,7 @@ constexpr std::string_view kCheckColumn = ",check";
 
 /// Of a row, with the check of the row before.
 std::string check_of(std::string_view before, std::string_view row) {
-  Sha256 sha;
-  sha.add(before);
-  sha.add(row);
-  return sha.hex().substr(0, 16);
+  return sha256_of(fmt::format("{}{}", before, row)).substr(0, 16);
 }
 
 /// Cuts off the row's check. Throws BadInput when it is another's.

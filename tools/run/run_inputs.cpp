@@ -58,9 +58,8 @@ std::vector<RunInput> run_inputs(const Scenario& scenario, const World& world) {
   std::vector<RunInput> inputs = world_inputs(scenario, world);
   const ProfilingConfig& profiling = scenario.planner.profiling;
   if (profiling.method != ProfilingMethod::saved) return inputs;
-  Sha256 sha;
-  sha.add(read_file(profiling.file));
-  inputs.push_back({"planner.profiling.file", profiling.file, sha.hex()});
+  inputs.push_back(
+      {"planner.profiling.file", profiling.file, sha256_of(read_file(profiling.file))});
   return inputs;
 }
 

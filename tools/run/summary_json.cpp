@@ -115,10 +115,7 @@ Json rejections_of(const std::map<Rejection, int>& rejections) {
 /// Of a function of the user's own.
 Json source_hash_of(const UtilityConfig& utility) {
   const UserFunctionConfig* const own = user_function(utility);
-  if (own == nullptr) return nullptr;
-  Sha256 hash;
-  hash.add(own->source);
-  return hash.hex();
+  return own == nullptr ? Json(nullptr) : Json(sha256_of(own->source));
 }
 
 Json home_of(const std::optional<HomeFlight>& home) {

@@ -145,9 +145,7 @@ SubmittedMission mission_of_run(const fs::path& run, const SuiteTask& task, cons
   if (figures.curve.accurate.empty()) throw BadInput("{}: has no accurate coverage", run.string());
   SubmittedMission mission{.figures = task_figures(figures, task, track.effort)};
   mission.figures.plan_s = planning_s(run);
-  Sha256 hash;
-  hash.add(read_file(run / kTrajectoryFile));
-  mission.trajectory_sha256 = hash.hex();
+  mission.trajectory_sha256 = sha256_of(read_file(run / kTrajectoryFile));
   for (const auto& [file, text] : mission_records(run, kind)) mission.files[file] = "";
   return mission;
 }

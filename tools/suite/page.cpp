@@ -20,9 +20,7 @@ GNBV_EMBED(suite_page_html, GNBV_SUITE_PAGE);
 
 /// What a file may be called, of a name that a stranger chose: another one for every name.
 std::string folder_name(const Submission& entry) {
-  Sha256 hash;
-  hash.add(entry.name);
-  return entry.track + "-" + hash.hex().substr(0, 16);
+  return entry.track + "-" + sha256_of(entry.name).substr(0, 16);
 }
 
 std::string mission_page(const Submission& entry, const std::string& task) {
