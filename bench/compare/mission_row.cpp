@@ -132,7 +132,7 @@ Figures figures_of(const RunFigures& run) {
 }  // namespace
 
 std::string figure_to_reach(Effort effort, std::string_view share) {
-  std::string_view unit = kEffortNames[static_cast<std::size_t>(effort)];
+  std::string_view unit = name_of(effort);
   constexpr std::string_view kBehind = "_with_profile";
   const bool is_behind = unit.ends_with(kBehind);
   if (is_behind) unit.remove_suffix(kBehind.size());

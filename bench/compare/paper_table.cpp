@@ -315,27 +315,15 @@ struct EffortWords {
   const char* from;
 };
 
-EffortWords words_of(Effort effort) {
-  switch (effort) {
-    case Effort::views:
-      return {"Views", "views", "views", "the first view"};
-    case Effort::metres:
-      return {"Metres", "metres", "m", "the first view"};
-    case Effort::seconds:
-      return {"Seconds", "seconds", "s", "the end of the profile"};
-    case Effort::metres_with_profile:
-      return {"Metres", "metres", "m", "take-off"};
-    case Effort::seconds_with_profile:
-      return {"Seconds", "seconds", "s", "take-off"};
-    case Effort::wh_with_profile:
-      return {"Wh", "Wh", "Wh", "take-off"};
-  }
-  GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
-}
+constexpr std::array<EffortWords, kEfforts.size()> kEffortWords = {
+    {{"Views", "views", "views", "the first view"},
+     {"Metres", "metres", "m", "the first view"},
+     {"Seconds", "seconds", "s", "the end of the profile"},
+     {"Metres", "metres", "m", "take-off"},
+     {"Seconds", "seconds", "s", "take-off"},
+     {"Wh", "Wh", "Wh", "take-off"}}};
 
-std::string budget_of(Effort effort) {
-  return fmt::format("budget_{}", kEffortNames[static_cast<std::size_t>(effort)]);
-}
+std::string budget_of(Effort effort) { return fmt::format("budget_{}", name_of(effort)); }
 
 /// A column a share and effort, behind its head the words given with it; without those that nobody
 /// knows.
@@ -362,11 +350,10 @@ TextTable effort_columns(const PaperTable& paper,
     for (const auto& [effort, behind] : efforts) {
       const std::string percent(share.substr(2));
       const std::string head = *behind == '\0' ? "" : "To ";
-      const std::string_view name = kEffortNames[static_cast<std::size_t>(effort)];
       // one for all rows, whatever each flew before its first view
       const auto budget = largest_figure(missions, paper.scenario, budget_of(effort));
-      add({fmt::format("{}{}%{}", head, percent, behind), fmt::format("{}_to_{}", name, percent),
-           ColumnKind::counted},
+      add({fmt::format("{}{}%{}", head, percent, behind),
+           fmt::format("{}_to_{}", name_of(effort), percent), ColumnKind::counted},
           [&](const auto& group) {
             return effort_cell(group, figure_to_reach(effort, share), budget);
           });
@@ -414,7 +401,7 @@ TextTable comparison_table(const PaperTable& paper, std::span<const MissionRow> 
 
 TextTable effort_table(const PaperTable& paper, Effort effort,
                        std::span<const MissionRow> missions) {
-  const EffortWords words = words_of(effort);
+  const EffortWords& words = kEffortWords.at(static_cast<std::size_t>(effort));
   TextTable table = effort_columns(paper, {{effort, ""}}, kReachNames, missions);
   table.title = fmt::format("{}{} to reach the ceiling", words.title,
                             is_from_take_off(effort) ? " from take-off" : "");

@@ -36,7 +36,7 @@ std::vector<RunMetric> metrics_of(std::span<const MissionRow> missions) {
     const auto add = [&](std::string_view unit, Effort effort, std::string_view from) {
       metrics.push_back({fmt::format("{} to {} % of ceiling{}", unit, share.substr(2), from),
                          figure_to_reach(effort, share), 1.0, kLess, 1, true,
-                         fmt::format("budget_{}", kEffortNames[static_cast<std::size_t>(effort)])});
+                         fmt::format("budget_{}", name_of(effort))});
     };
     add("views", Effort::views, "");
     add("metres", Effort::metres, "");

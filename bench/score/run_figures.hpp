@@ -56,6 +56,9 @@ constexpr std::array<Effort, 6> kEfforts = {Effort::views,
 constexpr std::array<std::string_view, 6> kEffortNames = {
     "views", "metres", "seconds", "metres_with_profile", "seconds_with_profile", "wh_with_profile"};
 
+constexpr std::string_view name_of(Effort effort) {
+  return kEffortNames[static_cast<std::size_t>(effort)];
+}
 constexpr bool is_from_take_off(Effort effort) { return effort >= Effort::metres_with_profile; }
 
 /// By views, metres and seconds: what mean coverage and efforts are judged over. 0: not known.

@@ -20,25 +20,17 @@ struct EffortWords {
   const char* unit;
 };
 
-EffortWords words_of(Effort effort) {
-  switch (effort) {
-    case Effort::views:
-      return {"views", "views", "views"};
-    case Effort::metres:
-      return {"path since the first view, straight legs (m)", "the path, straight legs (m)", "m"};
-    case Effort::seconds:
-      return {"time since the first view (s)", "the time since the first view (s)", "s"};
-    case Effort::metres_with_profile:
-      return {"path from take-off, straight legs (m)", "the path from take-off (m)", "m"};
-    case Effort::seconds_with_profile:
-      return {"time from take-off (s)", "the time from take-off (s)", "s"};
-    case Effort::wh_with_profile:
-      return {"energy from take-off (Wh)", "the energy from take-off (Wh)", "Wh"};
-  }
-  GNBV_CHECK(false, "effort {}", static_cast<int>(effort));
-}
+constexpr std::array<EffortWords, kEfforts.size()> kEffortWords = {
+    {{"views", "views", "views"},
+     {"path since the first view, straight legs (m)", "the path, straight legs (m)", "m"},
+     {"time since the first view (s)", "the time since the first view (s)", "s"},
+     {"path from take-off, straight legs (m)", "the path from take-off (m)", "m"},
+     {"time from take-off (s)", "the time from take-off (s)", "s"},
+     {"energy from take-off (Wh)", "the energy from take-off (Wh)", "Wh"}}};
 
-std::string_view name_of(Effort effort) { return kEffortNames[static_cast<std::size_t>(effort)]; }
+const EffortWords& words_of(Effort effort) {
+  return kEffortWords.at(static_cast<std::size_t>(effort));
+}
 
 std::vector<DrawnGroup> coverage_groups(std::span<const RunGroup> groups, Effort effort,
                                         double size_m) {
@@ -125,7 +117,7 @@ Arrivals arrivals_of(const RunGroup& group, Effort effort, double share) {
 }  // namespace
 
 Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double size_m) {
-  const EffortWords words = words_of(effort);
+  const EffortWords& words = words_of(effort);
   const std::vector<DrawnGroup> drawn = coverage_groups(groups, effort, size_m);
   Figure figure{.name = fmt::format("coverage-{}", name_of(effort)),
                 .kind = "coverage",
@@ -143,7 +135,7 @@ Figure coverage_figure(std::span<const RunGroup> groups, Effort effort, double s
 std::optional<Figure> coverage_end_figure(std::span<const RunGroup> groups, Effort effort,
                                           double size_m) {
   constexpr int kEndPercent = 15;  // of the longest run
-  const EffortWords words = words_of(effort);
+  const EffortWords& words = words_of(effort);
   std::vector<DrawnGroup> drawn = coverage_groups(groups, effort, size_m);
   const double longest = longest_of(drawn);
   if (!(longest > 0.0)) return std::nullopt;

@@ -40,7 +40,7 @@ Json effort_of(const MissionScore& score) {
     const auto reached = entry_that_covers(score.curve, kReachShares[i] * *score.ceiling);
     if (!reached) continue;
     for (const Effort effort : kEfforts) {
-      Json& spent = entry[std::string(kEffortNames[static_cast<std::size_t>(effort)])] = nullptr;
+      Json& spent = entry[std::string(name_of(effort))] = nullptr;
       if (is_known(score.curve, effort)) {
         spent = effort_at(score.curve, score.before, effort, *reached);
       }
