@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <tuple>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 namespace {
@@ -165,13 +165,8 @@ void store_cached(std::string_view kind, std::string_view key, std::string_view 
 std::uint64_t cache_limit_bytes() {
   const char* const asked = std::getenv("GNBV_CACHE_LIMIT");
   if (asked == nullptr || *asked == '\0') return kDefaultCacheLimit_bytes;
-  const std::string_view text = asked;
-  std::uint64_t bytes = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw BadInput("GNBV_CACHE_LIMIT={}: has to be a whole number of bytes", text);
-  }
-  return bytes;
+  if (const auto bytes = number_in<std::uint64_t>(asked)) return *bytes;
+  throw BadInput("GNBV_CACHE_LIMIT={}: has to be a whole number of bytes", asked);
 }
 
 std::vector<CacheKind> cache_kinds(const fs::path& folder) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "assets/random/random_structure.hpp"
@@ -12,6 +11,7 @@
 #include "sim/core/embed.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/sha256.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 
@@ -69,13 +69,12 @@ class SuiteMap {
   void read_number(const std::string& key, Number& value, bool may_be_absent = false) {
     const YamlNode* const node = find(key, may_be_absent);
     if (node == nullptr) return;
-    const char* const end = node->text.data() + node->text.size();
-    const bool is_read =
-        node->kind == YamlNode::Kind::scalar && !node->is_quoted &&
-        std::from_chars(node->text.data(), end, value) == std::from_chars_result{end, {}};
-    if (!is_read || !(value >= Number{0}) || value > kMost<Number>) {
-      fault(*node, key, "expects a number, 0 or more");
+    const auto number = number_in<Number>(node->text);
+    const bool is_read = number && node->kind == YamlNode::Kind::scalar && !node->is_quoted;
+    if (!is_read || !(*number >= Number{0}) || *number > kMost<Number>) {
+      return fault(*node, key, "expects a number, 0 or more");
     }
+    value = *number;
   }
   void read_number(const std::string& key, std::optional<double>& value) {
     if (find(key, true) != nullptr) read_number(key, value.emplace());

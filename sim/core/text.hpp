@@ -1,8 +1,10 @@
 // Text for people, terminals, shells and other files.
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,6 +54,16 @@ std::string printable(std::string_view text);
 
 /// Quoted as one word of a shell command where that is needed.
 std::string shell_word(const std::string& text);
+
+/// The number that is all of a text, in the same digits in every locale; nothing for any other
+/// text, or for a number that is out of range.
+template <typename Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && last == end ? std::optional(number) : std::nullopt;
+}
 
 /// RFC 4648, padded.
 std::string base64(std::span<const std::uint8_t> bytes);

@@ -1,7 +1,6 @@
 #include "sim/mesh/ply_reader.hpp"
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 
@@ -138,9 +137,9 @@ bool PlyFile::read_declaration(Words words) {
   if (words[0] == "element" && n == 3) {
     PlyElement& element = elements_.emplace_back();
     element.name = in_lower_case(words[1]);
-    const char* const last = words[2].data() + words[2].size();
-    const auto [end, error] = std::from_chars(words[2].data(), last, element.count);
-    return error == std::errc() && end == last;
+    const auto count = number_in<std::uint64_t>(words[2]);
+    element.count = count.value_or(0);
+    return count.has_value();
   }
   if (words[0] != "property" || elements_.empty()) return false;
   const bool is_list = n == 5 && words[1] == "list";

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 
 #include "sim/core/error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/gnbv/commands.hpp"
 #include "tools/gnbv/shared_options.hpp"
 #include "tools/mission/execute.hpp"
@@ -34,14 +34,10 @@ struct SurfaceOptions {
 
 int depth_of(const std::string& text) {
   if (text == "auto") return 0;
-  int depth = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), depth);
-  const bool is_number = error == std::errc() && end == text.data() + text.size();
-  if (!is_number || depth < kMinDepth || depth > kMaxDepth) {
-    throw BadInput("--depth: '{}' is neither auto nor a number from {} to {}", text, kMinDepth,
-                   kMaxDepth);
-  }
-  return depth;
+  const auto depth = number_in<int>(text);
+  if (depth && *depth >= kMinDepth && *depth <= kMaxDepth) return *depth;
+  throw BadInput("--depth: '{}' is neither auto nor a number from {} to {}", text, kMinDepth,
+                 kMaxDepth);
 }
 
 void surface_from_cloud(const SurfaceOptions& options, const SurfaceSettings& settings) {

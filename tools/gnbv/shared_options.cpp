@@ -5,11 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "bench/compare/text_table.hpp"
 #include "scenarios/validation_error.hpp"
+#include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
 #include "tools/terminal/streams.hpp"
 
@@ -27,10 +27,7 @@ CLI::Validator number_check(const std::string& must_be, bool (*is_good)(double))
 
 /// CLI11 takes 010 for 8, and what is below 0 or above 2^64 - 1 for other numbers.
 bool is_decimal(std::string_view text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  return is_number && (text[0] != '0' || text.size() == 1);
+  return number_in<std::uint64_t>(text) && (text[0] != '0' || text.size() == 1);
 }
 
 /// Of all commands and their parts.

@@ -2,7 +2,6 @@
 // and loads VTK.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -74,12 +73,9 @@ class PcdFile {
   static constexpr std::uint64_t kMost = std::uint64_t{1} << 31U;  // points, bytes of a point
 
   std::uint64_t count_of(std::string_view word, std::string_view of_what) const {
-    std::uint64_t count = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (error != std::errc() || end != word.data() + word.size() || count > kMost) {
-      to_.fail(fmt::format("its {} '{}' is no number of the kind", of_what, word.substr(0, 60)));
-    }
-    return count;
+    const auto count = number_in<std::uint64_t>(word);
+    if (count && *count <= kMost) return *count;
+    to_.fail(fmt::format("its {} '{}' is no number of the kind", of_what, word.substr(0, 60)));
   }
 
   void read_header() {

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <string_view>
 
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "tools/run/cloud_formats.hpp"
 
@@ -119,12 +119,8 @@ class TextCloud {
   /// Of the points of a block, before its first; the block before it has to be whole.
   bool takes_count() {
     if (!is_first_ && !announced_) return false;
-    std::uint64_t count = 0;
-    const std::string_view word = fields_.front();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (fields_.size() != 1 || error != std::errc() || end != word.data() + word.size()) {
-      return false;
-    }
+    const auto count = number_in<std::uint64_t>(fields_.front());
+    if (fields_.size() != 1 || !count) return false;
     need_all_announced();
     announced_ = count;
     announced_at_ = to_.points_m.size();

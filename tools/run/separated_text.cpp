@@ -1,11 +1,11 @@
 #include "tools/run/separated_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 
 namespace gnbv {
 
@@ -82,12 +82,9 @@ void for_each_line(std::string_view text, const std::filesystem::path& file,
 
 double to_number(std::string_view text, const TextPlace& place, std::string_view what) {
   const std::string_view t = trimmed(text);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), value);
-  if (error != std::errc{} || end != t.data() + t.size() || !std::isfinite(value)) {
-    throw BadInput("{}: {} `{}` is not a number", to_string(place), what, t);
-  }
-  return value;
+  const auto value = number_in<double>(t);
+  if (value && std::isfinite(*value)) return *value;
+  throw BadInput("{}: {} `{}` is not a number", to_string(place), what, t);
 }
 
 int to_count(std::string_view text, const TextPlace& place, std::string_view what) {

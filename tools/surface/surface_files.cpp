@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "sim/mesh/plain_text.hpp"
 #include "sim/mesh/ply_write.hpp"
 #include "tools/surface/textured_mesh.hpp"
@@ -53,11 +53,8 @@ std::string obj_of(const TexturedMesh& mesh) {
 
 /// Counted from 1 in the file, of so many.
 std::optional<std::uint32_t> read_index(std::string_view word, std::size_t count) {
-  std::uint32_t index = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  if (index < 1 || index > count) return std::nullopt;
-  return index - 1;
+  const auto index = number_in<std::uint32_t>(word);
+  return index && *index >= 1 && *index <= count ? std::optional(*index - 1) : std::nullopt;
 }
 
 /// The numbers of a line, behind its keyword; nothing unless they are so many, and finite.

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/text.hpp"
 #include "tools/sweep/sweep_yaml.hpp"
 
 namespace gnbv {
@@ -127,11 +127,8 @@ class SweepReader {
   // ---- seeds
 
   std::optional<std::uint64_t> read_seed(const YamlNode& node, const std::string& path) {
-    std::uint64_t value = 0;
-    const char* const end = node.text.data() + node.text.size();
-    const auto [last, error] = std::from_chars(node.text.data(), end, value);
-    const bool is_plain = node.kind == Kind::scalar && !node.is_quoted && !node.text.empty();
-    if (is_plain && error == std::errc{} && last == end) return value;
+    const auto value = number_in<std::uint64_t>(node.text);
+    if (value && node.kind == Kind::scalar && !node.is_quoted) return value;
     values_.fault(node, path, "expects a whole number, 0 or more");
     return std::nullopt;
   }

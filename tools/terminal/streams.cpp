@@ -7,13 +7,13 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
 
+#include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {
@@ -54,10 +54,7 @@ bool flush_stdout() {
 
 std::size_t stdout_columns() {
   if (const char* const asked = std::getenv("COLUMNS")) {
-    const std::string_view text(asked);
-    std::size_t columns = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), columns);
-    if (error == std::errc() && end == text.data() + text.size()) return columns;
+    if (const auto columns = number_in<std::size_t>(asked)) return *columns;
   }
   winsize size{};
   return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
