@@ -14,20 +14,6 @@ namespace gnbv {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Escapes = std::span<const std::pair<std::string_view, std::string_view>>;
-
-/// With the first of the signs that the text goes on with in another form, wherever one does.
-std::string escaped(std::string_view text, Escapes escapes) {
-  std::string all;
-  while (!text.empty()) {
-    const auto escape = std::find_if(escapes.begin(), escapes.end(),
-                                     [&](const auto& e) { return text.starts_with(e.first); });
-    const bool is_plain = escape == escapes.end();
-    all += is_plain ? text.substr(0, 1) : escape->second;
-    text.remove_prefix(is_plain ? 1 : escape->first.size());
-  }
-  return all;
-}
 
 /// What Markdown would take for markup. An underscore within a word is none.
 std::string markdown_escaped(std::string_view text) {

@@ -24,12 +24,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kTemporary = ".part-";
 constexpr std::size_t kMostOfAPipe = std::size_t{1} << 30;  // bytes
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
 /// Where links lead, so that they stay. Throws BadInput for a device or a pipe, whose place a
 /// renamed file would take.
 fs::path behind_links(fs::path path) {
@@ -71,6 +65,12 @@ bool is_still_there(int descriptor, const fs::path& path) {
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
 
 void refuse_to_write(const fs::path& path, int error_number, std::string_view what) {
   if (error_number == 0) throw OutputFailed(fmt::format("{}: {}", path.string(), what));

@@ -29,6 +29,9 @@ class OutputFailed : public std::runtime_error {
 /// The extension in lower case, with its dot: ".obj"; empty without one.
 std::string extension_of(const std::filesystem::path& path);
 
+/// Of this machine.
+std::string host_name();
+
 /// Opens a file or pipe to read its bytes. Throws BadInput naming the path.
 std::ifstream open_file(const std::filesystem::path& path);
 /// Throws BadInput naming the path when reading it failed, rather than ended.

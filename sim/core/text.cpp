@@ -150,6 +150,18 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+std::string escaped(std::string_view text, Escapes escapes) {
+  std::string all;
+  while (!text.empty()) {
+    const auto escape = std::find_if(escapes.begin(), escapes.end(),
+                                     [&](const auto& e) { return text.starts_with(e.first); });
+    const bool is_plain = escape == escapes.end();
+    all += is_plain ? text.substr(0, 1) : escape->second;
+    text.remove_prefix(is_plain ? 1 : escape->first.size());
+  }
+  return all;
+}
+
 std::string shell_word(const std::string& text) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:+-";

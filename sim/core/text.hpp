@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace gnbv {
 
@@ -51,6 +52,12 @@ char32_t take_code_point(std::string_view& text);
 
 /// For a terminal: control bytes (but newlines and tabs) and bytes that are no UTF-8 become \\x1b.
 std::string printable(std::string_view text);
+
+/// What a form of text writes instead of some signs, each of them one code point or more.
+using Escapes = std::span<const std::pair<std::string_view, std::string_view>>;
+
+/// With the first of the signs that the text goes on with in its other form, wherever one does.
+std::string escaped(std::string_view text, Escapes escapes);
 
 /// Quoted as one word of a shell command where that is needed.
 std::string shell_word(const std::string& text);
