@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"

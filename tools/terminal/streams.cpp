@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <string_view>
 
 #include "sim/core/text.hpp"
 #include "tools/terminal/say.hpp"
