@@ -1,9 +1,9 @@
-#include "bench/compare/run_metrics.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+
+#include "bench/compare/comparison.hpp"
 
 namespace gnbv {
 

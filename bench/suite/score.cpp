@@ -1,8 +1,7 @@
-#include "bench/suite/score.hpp"
-
 #include <algorithm>
 
 #include "bench/compare/statistics.hpp"
+#include "bench/suite/submission.hpp"
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 

@@ -1,8 +1,8 @@
-#include "tools/exports/sparse_model.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
+
+#include "tools/exports/formats.hpp"
 
 namespace gnbv {
 namespace {

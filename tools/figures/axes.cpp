@@ -1,11 +1,10 @@
-#include "tools/figures/axes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "sim/core/text.hpp"
+#include "tools/figures/figure.hpp"
 
 namespace gnbv {
 namespace {

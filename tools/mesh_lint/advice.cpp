@@ -1,5 +1,3 @@
-#include "tools/mesh_lint/advice.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "tools/mesh_lint/mesh_places.hpp"
+#include "tools/mesh_lint/mesh_report.hpp"
 #include "tools/mission/auto_bounds.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/start_pose.hpp"

@@ -1,6 +1,7 @@
 // What is wrong with a user's mesh, and how to put it right: `gnbv lint`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,9 +9,43 @@
 #include "scenarios/scenario.hpp"
 #include "sim/mesh/mesh_file.hpp"
 #include "sim/mesh/mesh_lint.hpp"
-#include "tools/mesh_lint/advice.hpp"
 
 namespace gnbv {
+
+struct MeshReport;
+
+// ---- advice.cpp: what is advised, all of it at once: one round of flags puts a mesh right
+
+/// A size that one flies around with a drone.
+struct Resize {
+  std::string set;   // KEY=VALUE
+  std::string text;  // with what else it might be
+};
+
+/// How the structure should be placed, and what of the scenario has to change with it, each for
+/// when all else is done. What is as it should be is empty.
+struct Advice {
+  std::optional<Resize> resize;
+  std::optional<LikelyUp> likely_up;
+  std::string up_axis;  // KEY=VALUE, as the next; to be set only where that axis is sure
+  std::string offset;
+  bool is_far = false;        // from the origin: the offset brings it there
+  bool needs_bounds = false;  // --bounds auto: the workspace does not hold it, or not its start
+  std::string start_fault;    // why the scenario's start will not do
+  std::string bounds_fault;   // why no workspace can be laid around it
+  std::string floor;          // KEY=VALUE, as the next
+  std::string resolution;
+  std::string resolution_fault;  // why the scenario's own will not do
+
+  /// All that is to be set, KEY=VALUE each.
+  std::vector<std::string> sets() const;
+};
+
+/// Of a report with a sound face and finite coordinates. `bounds_auto`: the workspace is laid
+/// around the structure, whatever the scenario says.
+Advice advise(const MeshReport& report, const Scenario& scenario, bool bounds_auto);
+
+// ---- mesh_report.cpp, mesh_findings.cpp and outside_view.cpp
 
 /// ok: as it should be. note: good to know, nothing to do. warning: a mission flies, but perhaps
 /// not around what was meant. error: no mission flies around it as it is.

@@ -1,5 +1,8 @@
 #include "tools/mission/view_pipe.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -75,6 +78,30 @@ Json coverage_json(const SurfaceReference& reference, const Belief& belief) {
 }
 
 }  // namespace
+
+SharedDepth::SharedDepth(std::size_t number)
+    : path_(fmt::format("/dev/shm/gnbv-{}-{}.f32", getpid(), number)) {
+  ::unlink(path_.c_str());  // what a killed process of that number left
+  descriptor_ = open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0600);
+}
+
+SharedDepth::~SharedDepth() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(path_.c_str());
+}
+
+bool SharedDepth::write(std::span<const float> depth_m) {
+  const auto bytes = std::as_bytes(depth_m);
+  std::size_t done = 0;
+  while (descriptor_ >= 0 && done < bytes.size()) {
+    const ssize_t count =
+        pwrite(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return descriptor_ >= 0;
+}
 
 ViewPipe::ViewPipe(const Scenario& scenario, RunDirectory& directory, bool keeps_frames,
                    const SurfaceReference* reference, std::function<std::string()> fault)

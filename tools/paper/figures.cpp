@@ -1,5 +1,3 @@
-#include "tools/paper/figures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "tools/figures/group_figures.hpp"
 #include "tools/figures/run_figures.hpp"
 #include "tools/paper/comparisons.hpp"
+#include "tools/paper/page.hpp"
 #include "tools/render/grid_samples.hpp"
 #include "tools/render/pictures.hpp"
 #include "tools/scene/flight.hpp"

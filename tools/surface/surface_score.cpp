@@ -1,5 +1,3 @@
-#include "tools/surface/surface_score.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +6,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/rng.hpp"
 #include "sim/mesh/mesh_lint.hpp"
+#include "tools/surface/surface.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,5 +1,3 @@
-#include "tools/surface/texture_atlas.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/parallel.hpp"
+#include "tools/surface/textured_mesh.hpp"
 
 // equal rectangles stay in their order on every system
 #define STBRP_SORT(first, count, size, compare) \

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/suite/score.hpp"
 #include "bench/suite/standings.hpp"
+#include "bench/suite/submission.hpp"
 #include "tests/support/fault.hpp"
 
 namespace gnbv {

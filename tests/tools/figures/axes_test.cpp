@@ -1,10 +1,10 @@
 // Laws of axes: they hold what is drawn, and their ticks can be read.
-#include "tools/figures/axes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "tools/figures/figure.hpp"
 
 namespace gnbv {
 namespace {

@@ -1,4 +1,3 @@
-#include "tools/mesh_lint/advice.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

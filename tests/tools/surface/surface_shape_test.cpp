@@ -14,7 +14,6 @@
 #include "tests/tools/surface/pictured_sheet.hpp"
 #include "tools/surface/poisson_module.hpp"
 #include "tools/surface/surface.hpp"
-#include "tools/surface/surface_score.hpp"
 #include "tools/surface/trim.hpp"
 
 namespace gnbv {
