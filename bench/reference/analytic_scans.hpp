@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "planner/map/scan_rays.hpp"
 #include "sensors/camera_model.hpp"
 #include "sensors/frames.hpp"
 #include "sensors/lidar_model.hpp"
@@ -33,5 +34,15 @@ DepthFrame analytic_depth(const AnalyticScene& scene, const CameraModel& camera,
                           const Isometry& T_world_body);
 LidarScan analytic_scan(const AnalyticScene& scene, const LidarConfig& lidar,
                         const Isometry& T_world_body);
+
+// ---- depth_rays.cpp: the rays of a depth frame one by one, the slow twin of
+// planner/map/scan_rays.hpp
+
+/// Rays of a depth frame in row-major pixel order, by the rules of PixelRay: kInvalidRange, or
+/// nearer than range_min_m, gives no ray; kNoReturn, or beyond range_max_m, a clearing ray to the
+/// plane at range_max_m, or none with NoReturn::unknown; a return below `floor_z_m` clears but
+/// marks nothing.
+std::vector<ScanRay> rays_of(const DepthFrame& frame, const CameraModel& camera, double floor_z_m,
+                             NoReturn no_return = NoReturn::free);
 
 }  // namespace gnbv

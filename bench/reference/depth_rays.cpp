@@ -1,5 +1,4 @@
-#include "bench/reference/depth_rays.hpp"
-
+#include "bench/reference/analytic_scans.hpp"
 #include "sim/core/error.hpp"
 
 namespace gnbv {

@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "bench/reference/depth_rays.hpp"
 #include "bench/speed/speed_rows.hpp"
 #include "planner/map/scan_insertion.hpp"
 #include "planner/map/surface_cloud.hpp"

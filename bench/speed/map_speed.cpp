@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "bench/speed/speed_rows.hpp"
 #include "planner/map/scan_insertion.hpp"

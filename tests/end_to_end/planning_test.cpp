@@ -14,7 +14,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/watch.hpp"
 #include "tools/mission/decision_log.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 
 namespace gnbv {
 namespace {

@@ -6,9 +6,8 @@
 
 #include "sim/core/error.hpp"
 #include "tests/fuzz/written.hpp"
-#include "tools/run/beliefs_jsonl.hpp"
-#include "tools/run/candidates_jsonl.hpp"
 #include "tools/run/coverage_csv.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/trajectory_tum.hpp"

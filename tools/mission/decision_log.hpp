@@ -4,8 +4,7 @@
 #include "planner/core/belief.hpp"
 #include "scenarios/scenario.hpp"
 #include "tools/mission/mission.hpp"
-#include "tools/run/beliefs_jsonl.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 
 namespace gnbv {
 

@@ -15,7 +15,7 @@
 #include "sim/core/parallel.hpp"
 #include "tools/page/packs.hpp"
 #include "tools/run/file_names.hpp"
-#include "tools/scene/error_scale.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

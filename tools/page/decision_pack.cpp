@@ -9,8 +9,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/page/packs.hpp"
-#include "tools/run/beliefs_jsonl.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/run_files.hpp"
 #include "tools/scene/decision.hpp"
 

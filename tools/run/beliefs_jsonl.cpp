@@ -1,11 +1,10 @@
-#include "tools/run/beliefs_jsonl.hpp"
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "sim/core/error.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/file_names.hpp"
 
 namespace gnbv {

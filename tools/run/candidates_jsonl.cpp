@@ -1,5 +1,3 @@
-#include "tools/run/candidates_jsonl.hpp"
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -7,6 +5,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/mission_result.hpp"
 #include "tools/run/run_files.hpp"
 

@@ -1,10 +1,9 @@
-#include "tools/scene/error_scale.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "sim/core/text.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 

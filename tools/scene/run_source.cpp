@@ -6,7 +6,7 @@
 #include "sim/core/error.hpp"
 #include "tools/mission/load_world.hpp"
 #include "tools/mission/reference.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/run_inputs.hpp"
 
 namespace gnbv {

@@ -8,7 +8,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/text.hpp"
 #include "tools/render/pictures.hpp"
-#include "tools/scene/error_scale.hpp"
+#include "tools/scene/colour.hpp"
 
 namespace gnbv {
 namespace {

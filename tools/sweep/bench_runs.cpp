@@ -18,7 +18,6 @@
 #include "tools/run/file_names.hpp"
 #include "tools/run/run_inputs.hpp"
 #include "tools/run/summary_json.hpp"
-#include "tools/sweep/missions_csv.hpp"
 #include "tools/sweep/run_cells.hpp"
 #include "tools/terminal/say.hpp"
 

@@ -6,10 +6,12 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/compare/comparison.hpp"
+#include "bench/compare/mission_row.hpp"
 #include "bench/compare/text_table.hpp"
 #include "bench/limits/ceiling.hpp"
 #include "tools/sweep/sweep.hpp"
@@ -96,5 +98,16 @@ struct BenchTables {
   std::vector<TextTable> tables;
   std::vector<std::string> failures;
 };
+
+// ---- missions_csv.cpp: missions as rows of a CSV file: raw data that tables are printed from, and
+// that says what need not be flown again
+
+/// RFC 4180: the words of a row, then a column a figure, by name. Numbers read back exactly; "inf"
+/// for what was not reached, nothing for what is not known. A mesh is named without its folders.
+std::string missions_csv(std::span<const MissionRow> missions);
+
+/// Throws BadInput naming file, line and column of what is missing or no number, and of the second
+/// of two rows of one scenario, method, setting and seed.
+std::vector<MissionRow> read_missions(const std::filesystem::path& csv);
 
 }  // namespace gnbv

@@ -12,7 +12,6 @@
 #include "sim/core/file.hpp"
 #include "sim/core/stopwatch.hpp"
 #include "tools/sweep/bench_runs.hpp"
-#include "tools/sweep/missions_csv.hpp"
 #include "tools/terminal/say.hpp"
 
 namespace gnbv {

@@ -1,5 +1,3 @@
-#include "tools/sweep/missions_csv.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
 #include "tools/run/separated_text.hpp"
+#include "tools/sweep/bench_runs.hpp"
 
 namespace gnbv {
 namespace {

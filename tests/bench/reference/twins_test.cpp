@@ -4,7 +4,7 @@
 #include <bit>
 #include <set>
 
-#include "bench/reference/depth_rays.hpp"
+#include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/kd_density_twin.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "bench/reference/view_twins.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/ray_walk.hpp"
 #include "planner/map/scan_insertion.hpp"

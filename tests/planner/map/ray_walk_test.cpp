@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "bench/reference/depth_rays.hpp"
+#include "bench/reference/analytic_scans.hpp"
 #include "bench/reference/octomap_twin.hpp"
 #include "planner/map/scan_rays.hpp"
 #include "sim/core/error.hpp"

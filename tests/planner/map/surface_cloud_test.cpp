@@ -8,7 +8,6 @@
 #include <map>
 
 #include "bench/reference/analytic_scans.hpp"
-#include "bench/reference/depth_rays.hpp"
 #include "bench/reference/pcl_twin.hpp"
 #include "sim/core/error.hpp"
 #include "tests/planner/map/random_points.hpp"

@@ -12,8 +12,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/tools/page/page_arrays.hpp"
 #include "tools/page/packs.hpp"
-#include "tools/run/beliefs_jsonl.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 
 namespace gnbv {
 namespace {

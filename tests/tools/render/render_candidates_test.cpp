@@ -7,7 +7,7 @@
 #include "sim/core/error.hpp"
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/scene/decision.hpp"
 #include "tools/scene/voxels.hpp"
 

@@ -9,7 +9,7 @@
 #include "tests/tools/render/laid_out.hpp"
 #include "tests/tools/render/watched.hpp"
 #include "tools/mission/replay.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/scene/voxels.hpp"
 
 namespace gnbv {

@@ -5,8 +5,7 @@
 #include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "tools/run/beliefs_jsonl.hpp"
-#include "tools/run/candidates_jsonl.hpp"
+#include "tools/run/decision_lines.hpp"
 #include "tools/run/tour_files.hpp"
 
 namespace gnbv {

@@ -6,7 +6,7 @@
 
 #include "sim/core/image.hpp"
 #include "tests/tools/surface/pictured_sheet.hpp"
-#include "tools/scene/error_scale.hpp"
+#include "tools/scene/colour.hpp"
 #include "tools/surface/surface_picture.hpp"
 #include "tools/surface/textured_mesh.hpp"
 
