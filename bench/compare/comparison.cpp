@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "sim/core/error.hpp"
