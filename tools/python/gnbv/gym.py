@@ -107,18 +107,9 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         profiles are kept; 0: of any; `observe`, `crop`: what more is observed, and the crop's edge
         in voxels. Raises gnbv.BadInput."""
         self.render_mode = render_mode
-        self._made: dict[str, Any] = {
-            "scenario": scenario,
-            "action": action,
-            "goal": goal,
-            "set": dict(set or {}),
-            "threads": 1,
-            "render_mode": render_mode,
-            "seeds": seeds,
-            "observe": tuple(observe),
-            "crop": crop,
-        }
-        self._stage = Stage(**self._made)
+        flown = (scenario, action, goal, dict(set or {}), 1)
+        self._made = (*flown, render_mode, seeds, tuple(observe), crop)
+        self._stage = Stage(*self._made)
         self._episode = Episode(self._stage)
         self.action_space = self._stage.action_space()
         self.observation_space: spaces.Space[Any] = self._stage.observation_space()
@@ -172,24 +163,22 @@ class NbvEnv(gymnasium.Env[Observation, Any]):
         is_there = self._episode.lacks in ("", "is over")
         return {**kept, "_state": self.clone_state() if is_there else None}
 
-    def __setstate__(self, given: dict[str, Any]) -> None:
-        state = given.pop("_state")
+    def _take_over(self, given: dict[str, Any], state: State | None, stage: Stage) -> None:
         self.__dict__.update(given)
-        self._stage = Stage(**self._made)
-        self._episode = Episode(self._stage)
+        self._stage = stage
+        self._episode = Episode(stage)
         if state is not None:
             self.restore_state(state)
+
+    def __setstate__(self, given: dict[str, Any]) -> None:
+        self._take_over(given, given.pop("_state"), Stage(*given["_made"]))
 
     def __deepcopy__(self, memo: dict[int, Any]) -> NbvEnv:
         """Another one, in the same state; what does not change is shared."""
         made = type(self).__new__(type(self))
         given = self.__getstate__()
         state = given.pop("_state")
-        made.__dict__.update(copy.deepcopy(given, memo))
-        made._stage = self._stage
-        made._episode = Episode(self._stage)
-        if state is not None:
-            made.restore_state(state)
+        made._take_over(copy.deepcopy(given, memo), state, self._stage)
         return made
 
     def close(self) -> None:
