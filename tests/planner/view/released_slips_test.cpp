@@ -103,6 +103,7 @@ ViewStats by_force(const RandomScene& scene, const ViewRays& rays, const ViewPos
       if (!seen.insert(v).second) continue;
       stats.entropy_nat += entropy_nat;
       stats.occupied_voxels += is_occupied(v);
+      stats.free_voxels += scene.grid.state(v) == VoxelState::free;
       stats.unknown_voxels += scene.grid.state(v) == VoxelState::unknown;
     }
   }
@@ -127,6 +128,7 @@ TEST(Slips, AreThoseByForce) {
           evaluate_view_with_slips(scene.grid, scene.cloud, rays, pose, slips, 0.0);
       const ViewStats forced = by_force(scene, rays, pose, slips);
       EXPECT_EQ(ours.occupied_voxels, forced.occupied_voxels) << mask << ' ' << i;
+      EXPECT_EQ(ours.free_voxels, forced.free_voxels) << mask << ' ' << i;
       EXPECT_EQ(ours.unknown_voxels, forced.unknown_voxels) << mask << ' ' << i;
       EXPECT_NEAR(ours.entropy_nat, forced.entropy_nat, 1e-6) << mask << ' ' << i;
       EXPECT_NEAR(ours.entropy_per_ray_nat, forced.entropy_per_ray_nat, 1e-5) << mask << ' ' << i;
@@ -149,22 +151,6 @@ TEST(ExcludedHitVoxel, AFlatWallHeadOnIsNotSeenATiltedOneWhereItsVoxelsAreClippe
   EXPECT_LT(slipped, tilted.look({}).occupied_voxels / 2);
 }
 
-TEST(ExcludedHitVoxel, LeavesTheVoxelsBeforeIt) {
-  Corridor corridor(8);
-  corridor.miss(0);
-  corridor.hit(2);
-  const ViewStats stats =
-      evaluate_view_with_slips(corridor.grid, corridor.cloud, Corridor::one_ray(1.2),
-                               {Vec3(0.1, 0.1, 0.1), 0.0}, {.excludes_hit_voxel = true}, 0.0);
-  const auto entropy_nat = [&](VoxelIndex v) {
-    return static_cast<double>(corridor.grid.entropy_nat(v));
-  };
-  EXPECT_EQ(stats.entropy_per_ray_nat, entropy_nat(0) + entropy_nat(1));
-  EXPECT_EQ(stats.free_voxels, 1U);
-  EXPECT_EQ(stats.unknown_voxels, 1U);
-  EXPECT_EQ(stats.occupied_voxels, 0U);
-}
-
 TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
   const WallScene flat(0.0);
   VisitMarks marks(flat.grid.geometry().voxel_count());
@@ -180,24 +166,6 @@ TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
   EXPECT_EQ(occupied("bircher"), 0U);
   EXPECT_GT(occupied("proposed"), 90U);
   EXPECT_GT(occupied("aep"), 90U);
-}
-
-TEST(PredictionThatHidesHits, CountsAHitOnlyWhereAPredictionWasHitToo) {
-  Corridor corridor(8);
-  corridor.miss(0);
-  corridor.hit(2);
-  const ViewPose pose = {Vec3(0.1, 0.1, 0.1), 0.0};
-  const auto occupied = [&](bool hides) {
-    return evaluate_view_with_slips(corridor.grid, corridor.cloud, Corridor::one_ray(1.2), pose,
-                                    {.prediction_hides_hits = hides}, 0.0)
-        .occupied_voxels;
-  };
-  EXPECT_EQ(occupied(false), 1U);
-  EXPECT_EQ(occupied(true), 0U);
-  corridor.grid.predict(7);  // beyond range
-  EXPECT_EQ(occupied(true), 0U);
-  corridor.grid.predict(4);  // behind the hit
-  EXPECT_EQ(occupied(true), 1U);
 }
 
 TEST(PredictionThatHidesHits, IsProposedsAloneAndNeedsAWeightForPrediction) {
@@ -285,19 +253,6 @@ TEST(VoxelsInSight, AreThoseThatTheUtilityCounts) {
     predicted += seen.predicted.size();
   }
   EXPECT_GT(predicted, 100U);
-}
-
-TEST(VoxelsInSight, EndAtTheFirstOccupiedVoxel) {
-  Corridor corridor(12);
-  for (const VoxelIndex v : {0, 1, 2}) {
-    for (int i = 0; i < 3; ++i) corridor.miss(v);
-  }
-  for (int i = 0; i < 3; ++i) corridor.hit(8);
-  for (const VoxelIndex v : {5, 6, 10}) corridor.grid.predict(v);
-  const VoxelsInSight seen =
-      voxels_in_sight(corridor.grid, Corridor::one_ray(5.0), {Vec3(0.1, 0.1, 0.1), 0.0});
-  EXPECT_EQ(seen.unknown, (std::vector<VoxelIndex>{3, 4, 5, 6, 7}));
-  EXPECT_EQ(seen.predicted, (std::vector<VoxelIndex>{5}));
 }
 
 }  // namespace
