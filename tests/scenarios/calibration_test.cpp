@@ -89,15 +89,13 @@ struct Read {
 
 Read read(const std::string& text, const std::string& which = "", const std::string& keys = "") {
   const ScenarioFile file(fmt::format("cameras: [{{calibration: 'calib{}'{}}}]\n", which, keys));
-  std::ofstream(file.folder() / "calib") << text;
+  file.folder().write("calib", text);
   Read out;
-  out.complaint = test::fault_of([&] {
+  out.complaint = file.folder().without_path(test::fault_of([&] {
     const Scenario scenario = load_scenario(file.path().string(), {});
     EXPECT_TRUE(repeats(scenario));  // the numbers are the scenario's own from then on
     out.camera = scenario.cameras.at(0);
-  });
-  const std::string folder = file.folder().string() + '/';
-  if (out.complaint.starts_with(folder)) out.complaint.erase(0, folder.size());
+  }));
   return out;
 }
 

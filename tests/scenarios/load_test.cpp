@@ -222,7 +222,7 @@ TEST(Paths, OfAFileAreBesideItThoseOfAnOverrideInTheCurrentFolder) {
   EXPECT_EQ(s.structure.file.path, file.path().lexically_normal().string());
 
   const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(file.folder());
+  std::filesystem::current_path(file.folder().path());
   const Scenario t = load_scenario("smoke", {"structure.file.path=s.yaml"});
   std::filesystem::current_path(before);
   EXPECT_TRUE(std::filesystem::path(t.structure.file.path).is_absolute());
@@ -234,8 +234,7 @@ TEST(Paths, WithAwkwardLettersSurviveWritingAndReading) {
   const ScenarioFile file(kMinimal);
   for (const char* name : {"a b.obj", "it's.obj", "q\"uote.obj", "back\\slash.obj", "#5: x.obj",
                            "ünïcode.obj", "tab\t.obj"}) {
-    const std::string path = (file.folder() / name).string();
-    std::ofstream(path) << "x";
+    const std::string path = file.folder().write(name, "x").string();
     Scenario s = load_text(kMinimal);
     s.structure.file.path = path;
     EXPECT_EQ(load_text(to_yaml(s)).structure.file.path, path);

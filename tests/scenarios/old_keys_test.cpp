@@ -117,10 +117,7 @@ std::vector<std::string> notes_of(const std::string& text) {
   const ScenarioFile file(text);
   std::vector<std::string> notes;
   load_with_overrides(file.path().string(), {}, {}, &notes);
-  for (std::string& note : notes) {
-    const std::size_t at = note.find(file.folder().string());
-    if (at != std::string::npos) note.erase(at, file.folder().string().size() + 1);
-  }
+  for (std::string& note : notes) note = file.folder().without_path(note);
   return notes;
 }
 

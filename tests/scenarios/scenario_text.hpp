@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,9 @@ namespace gnbv {
 /// A file in a folder of its own, gone when the object is.
 class ScenarioFile {
  public:
-  explicit ScenarioFile(const std::string& text) { std::ofstream(path()) << text; }
-  std::filesystem::path path() const { return folder() / "s.yaml"; }
-  const std::filesystem::path& folder() const { return folder_.path(); }
+  explicit ScenarioFile(const std::string& text) { folder_.write("s.yaml", text); }
+  std::filesystem::path path() const { return folder_.path() / "s.yaml"; }
+  const TempFolder& folder() const { return folder_; }
 
  private:
   TempFolder folder_;
@@ -41,12 +40,8 @@ inline bool repeats(const Scenario& scenario) {
 inline std::string complaint(const std::string& text,
                              const std::vector<std::string>& overrides = {}) {
   const ScenarioFile file(text);
-  std::string message = test::fault_of([&] { load_scenario(file.path().string(), overrides); });
-  const std::string folder = file.folder().string() + '/';
-  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
-    message.erase(at, folder.size());
-  }
-  return message;
+  return file.folder().without_path(
+      test::fault_of([&] { load_scenario(file.path().string(), overrides); }));
 }
 
 }  // namespace gnbv

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "assets/catalog.hpp"
@@ -39,12 +38,12 @@ TEST(OutsideView, ABoxInABoxIsHidden) {
 TEST(MeshReport, NamesThePicturesThatWereFoundAndTheirMemory) {
   const TempFolder folder;
   write_png(Image{3, 2, std::vector<std::uint8_t>(18)}, folder.path() / "p.png");
-  std::ofstream(folder.path() / "a.mtl") << "newmtl a\nmap_Kd p.png\nnewmtl b\nmap_Kd none.png\n";
-  std::ofstream(folder.path() / "a.obj")
-      << "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n"
-         "usemtl b\nf 1/1 3/1 2/1\n";
+  folder.write("a.mtl", "newmtl a\nmap_Kd p.png\nnewmtl b\nmap_Kd none.png\n");
   Scenario scenario = load_scenario("smoke", {});
-  scenario.structure.file.path = (folder.path() / "a.obj").string();
+  scenario.structure.file.path =
+      folder.write("a.obj",
+                   "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n"
+                   "usemtl b\nf 1/1 3/1 2/1\n");
   const std::string text = terminal_text(report_on_mesh(scenario, false, 1));
   EXPECT_NE(text.find("1 picture, 0.0 MB of pixels, and 0.0 MB"), text.npos) << text;
   EXPECT_NE(text.find("p.png 3 x 2"), text.npos) << text;
@@ -130,10 +129,7 @@ class Report : public testing::Test {
     write_mesh(mesh, temp_.path() / "t.obj");
     return of_file(temp_.path() / "t.obj", std::move(overrides));
   }
-  MeshReport of_text(const std::string& obj) {
-    std::ofstream(temp_.path() / "t.obj") << obj;
-    return of_file(temp_.path() / "t.obj", {});
-  }
+  MeshReport of_text(const std::string& obj) { return of_file(temp_.write("t.obj", obj), {}); }
   static MeshReport of_file(const fs::path& path, std::vector<std::string> overrides) {
     overrides.insert(overrides.begin(), "structure.file.path=" + path.string());
     return report_on_mesh(load_scenario("aircraft", overrides), false, 2);

@@ -7,7 +7,6 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
-#include <fstream>
 #include <random>
 
 #include "sim/core/file.hpp"
@@ -25,13 +24,9 @@ const std::vector<Vec3f> kPoints = {Vec3f(1, 2, 3), Vec3f(-4.5F, 0, 1e-3F), Vec3
 
 class CloudFile : public testing::Test {
  protected:
-  fs::path written(const std::string& name, const std::string& content) const {
-    std::ofstream(temp_.path() / name, std::ios::binary) << content;
-    return temp_.path() / name;
-  }
   std::vector<Vec3f> points_of(const std::string& name, const std::string& content) {
     warnings_.clear();
-    return read_cloud(written(name, content), Vec3::Zero(), &warnings_);
+    return read_cloud(temp_.write(name, content), Vec3::Zero(), &warnings_);
   }
   std::string complaint_of(const std::string& name, const std::string& content) {
     const std::string fault = test::fault_of([&] { points_of(name, content); });
@@ -79,11 +74,11 @@ TEST_F(CloudFile, EveryLayoutGivesTheSamePoints) {
     append_bytes(labelled, std::int16_t{7});
   }
   const fs::path between =
-      written("b.ply",
-              "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar red\n"
-              "property double x\nproperty double y\nproperty double z\nproperty short label\n"
-              "element face 0\nproperty list uchar int vertex_indices\nend_header\n" +
-                  labelled);
+      temp_.write("b.ply",
+                  "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar red\n"
+                  "property double x\nproperty double y\nproperty double z\nproperty short label\n"
+                  "element face 0\nproperty list uchar int vertex_indices\nend_header\n" +
+                      labelled);
   EXPECT_EQ(read_cloud(between), kPoints);
   EXPECT_EQ(points_of("more.ply", read_file(between) + labelled), kPoints);
   ASSERT_EQ(warnings_.size(), 1U);
@@ -101,7 +96,7 @@ TEST_F(CloudFile, AMeshGivesItsVerticesWhateverItsFacesAre) {
   EXPECT_EQ(read_cloud(temp_.path() / "mesh.ply"), kPoints);
   EXPECT_EQ(load_mesh({.path = temp_.path() / "mesh.ply"}).vertices_m, kPoints);
   const std::string whole = read_file(temp_.path() / "mesh.ply");
-  const fs::path cut = written("cut.ply", whole.substr(0, whole.size() - 1));
+  const fs::path cut = temp_.write("cut.ply", whole.substr(0, whole.size() - 1));
   EXPECT_EQ(read_cloud(cut), kPoints);
   EXPECT_THROW(load_mesh({.path = cut}), BadInput);
   std::string fewer = whole;
@@ -115,7 +110,7 @@ TEST_F(CloudFile, AMeshGivesItsVerticesWhateverItsFacesAre) {
 
 TEST_F(CloudFile, WhatIsNotANumberStaysForTheJudge) {
   const std::vector<Vec3f> points =
-      read_cloud(written("a.xyz", "1 nan 3\n1 2 inf\n1 2 1e999\n1 2 1e-999\n"));
+      read_cloud(temp_.write("a.xyz", "1 nan 3\n1 2 inf\n1 2 1e999\n1 2 1e-999\n"));
   ASSERT_EQ(points.size(), 4U);
   EXPECT_EQ(points[3].z(), 0.0F);
   EXPECT_TRUE(std::isnan(points[0].y()));
@@ -261,7 +256,7 @@ std::string las_of(std::uint8_t minor, const std::vector<std::array<std::int32_t
 TEST_F(CloudFile, LasKeepsItsMillimetresBesideTheOffsetOfAMapGrid) {
   for (const std::uint8_t minor : {std::uint8_t{2}, std::uint8_t{4}}) {
     const std::string whole = las_of(minor, {{1, -2, 3}, {40'001, 2'000'000, -1}});
-    const auto points = read_cloud(written("a.las", whole), Vec3(-500'000, -5'000'000, 0));
+    const auto points = read_cloud(temp_.write("a.las", whole), Vec3(-500'000, -5'000'000, 0));
     ASSERT_EQ(points.size(), 2U);
     EXPECT_LT((points[0] - Vec3f(0.001F, -0.002F, 0.003F)).norm(), 1e-6F);
     EXPECT_LT((points[1] - Vec3f(40.001F, 2000.0F, -0.001F)).norm(), 1e-4F);
@@ -290,7 +285,7 @@ TEST_F(CloudFile, EveryTextKeepsMillimetresBesideTheOffsetOfAMapGrid) {
       row;
   const std::string pcd = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 1\nDATA ascii\n" + row;
   for (const auto& [name, content] : {std::pair("a.xyz", row), {"a.ply", ply}, {"a.pcd", pcd}}) {
-    const auto points = read_cloud(written(name, content), Vec3(-500'000, -5'000'000, 0));
+    const auto points = read_cloud(temp_.write(name, content), Vec3(-500'000, -5'000'000, 0));
     ASSERT_EQ(points.size(), 1U);
     EXPECT_LT((points[0] - Vec3f(1.234F, 2.345F, 3.456F)).norm(), 1e-6F) << name;
   }

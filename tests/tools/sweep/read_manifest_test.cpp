@@ -1,4 +1,3 @@
-#include <fstream>
 
 #include "tests/support/fault.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -9,7 +8,7 @@ namespace {
 
 std::vector<Cell> cells_in(const std::string& manifest) {
   TempFolder temp;
-  std::ofstream(temp.path() / "sweep.json") << manifest;
+  temp.write("sweep.json", manifest);
   return cells_of_manifest(temp.path());
 }
 

@@ -29,13 +29,7 @@ Sweep smoke_sweep(int views, std::vector<std::uint64_t> seeds) {
 class RunCells : public testing::Test {
  protected:
   RunCellsOptions options(int jobs = 2) const {
-    RunCellsOptions all;
-    all.folder = folder();
-    all.jobs = jobs;
-    all.threads = 1;
-    all.quiet = true;
-    all.program = GNBV_PROGRAM;
-    return all;
+    return {.folder = folder(), .jobs = jobs, .threads = 1, .quiet = true, .program = GNBV_PROGRAM};
   }
   fs::path folder() const { return temp_.path() / "sweep"; }
 
@@ -45,8 +39,7 @@ class RunCells : public testing::Test {
 
   /// A program of these lines of shell.
   fs::path script(const std::string& lines) const {
-    const fs::path path = temp_.path() / "script";
-    std::ofstream(path) << "#!/bin/sh\n" << lines << "\n";
+    const fs::path path = temp_.write("script", "#!/bin/sh\n" + lines + "\n");
     fs::permissions(path, fs::perms::owner_all);
     return path;
   }

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
-#include <fstream>
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
@@ -22,13 +21,11 @@ TEST(BatchScript, ItsTasksFlyEveryCellOnceAndAreNoMoreThanAllowed) {
   TempFolder temp;
   for (const auto& [cells, allowed] :
        {std::pair<std::size_t, std::size_t>{1, 1001}, {6, 6}, {7, 6}, {12, 6}, {13, 6}, {5, 1}}) {
-    SlurmOptions options;
-    options.program = "/bin/echo";
-    options.sweep_file = temp.path() / "it's.yaml";
-    options.folder = temp.path();
-    options.cells = cells;
-    const fs::path script = temp.path() / "s.sbatch";
-    std::ofstream(script) << batch_script(options, allowed);
+    const SlurmOptions options{.program = "/bin/echo",
+                               .sweep_file = temp.path() / "it's.yaml",
+                               .folder = temp.path(),
+                               .cells = cells};
+    const fs::path script = temp.write("s.sbatch", batch_script(options, allowed));
     const std::string text = read_file(script);
     const std::size_t tasks = std::stoul(text.substr(text.find("--array=0-") + 10)) + 1;
     EXPECT_LE(tasks, allowed);
@@ -50,8 +47,7 @@ TEST(BatchScript, ItsTasksFlyEveryCellOnceAndAreNoMoreThanAllowed) {
 TEST(BatchScript, WhatSbatchWarnsOfIsNoPartOfTheId) {
   TempFolder temp;
   const auto sbatch_that = [&](const std::string& does) {
-    std::ofstream(temp.path() / "sbatch") << "#!/bin/sh\n" + does + "\n";
-    fs::permissions(temp.path() / "sbatch", fs::perms::owner_all);
+    fs::permissions(temp.write("sbatch", "#!/bin/sh\n" + does + "\n"), fs::perms::owner_all);
   };
   const std::string path = std::getenv("PATH");
   setenv("PATH", (temp.path().string() + ":" + path).c_str(), 1);

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <set>
 
 #include "scenarios/document.hpp"
@@ -15,29 +14,20 @@
 namespace gnbv {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 class SweepFile : public testing::Test {
  protected:
-  Sweep read(const std::string& text) {
-    std::ofstream(temp_.path() / "s.yaml") << text;
-    return read_sweep(temp_.path() / "s.yaml");
-  }
+  Sweep read(const std::string& text) { return read_sweep(temp_.write("s.yaml", text)); }
 
   /// What reading the file or resolving its cells complains about, with short paths.
   std::string complaint(const std::string& text) {
-    std::string message = test::fault_of([&] { cells_of(read(text)); });
-    const std::string folder = temp_.path().string() + '/';
-    for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder))
-      message.erase(at, folder.size());
-    return message;
+    return temp_.without_path(test::fault_of([&] { cells_of(read(text)); }));
   }
 
-  void write_triangle(const fs::path& path, double height_m = 1.0) {
-    fs::create_directories(path.parent_path());
-    std::ofstream(path) << "v 0 0 0.5\nv 1 0 0.5\nv 0 1 " << height_m << "\nf 1 2 3\n";
+  void write_triangle(const std::string& name, double height_m = 1.0) {
+    temp_.write(name, fmt::format("v 0 0 0.5\nv 1 0 0.5\nv 0 1 {}\nf 1 2 3\n", height_m));
   }
 
   TempFolder temp_;
@@ -100,14 +90,15 @@ TEST_F(SweepFile, UtilitiesPresetsAndVariantsStandSideBySideTimesTheGrid) {
 }
 
 TEST_F(SweepFile, AUtilityMayBeAFunctionInAFileBesideIt) {
-  std::ofstream(temp_.path() / "u.py") << "def near(views):\n    return -views['path_m']\n\n"
-                                          "def far(views):\n    return views['path_m']\n";
+  temp_.write("u.py",
+              "def near(views):\n    return -views['path_m']\n\n"
+              "def far(views):\n    return views['path_m']\n");
   const Sweep sweep = read("scenarios: smoke\nutilities: [isler, ./u.py:near, u.py:far]\n");
   EXPECT_THAT(names_of(sweep.methods), ElementsAre("isler", "near", "far"));
   const std::vector<Cell> cells = cells_of(sweep);
   EXPECT_EQ(cells[1].resolved.planner.utility.python.function, "near");
   EXPECT_EQ(cells[1].resolved.planner.utility.python.source, read_file(temp_.path() / "u.py"));
-  std::ofstream(temp_.path() / "u.py", std::ios::app) << "# changed\n";
+  temp_.write("u.py", cells[1].resolved.planner.utility.python.source + "# changed\n");
   EXPECT_NE(cells_of(read("scenarios: smoke\nutilities: u.py:near\n"))[0].id, cells[1].id);
   EXPECT_EQ(
       complaint("scenarios: smoke\nutilities:\n  - u.py:nobody\n  - none.py\n"),
@@ -126,14 +117,12 @@ TEST_F(SweepFile, APresetDoesNotUndoWhatIsSetBesideIt) {
 }
 
 TEST_F(SweepFile, TheIdIsThatOfWhatAMeshRefersToAsWell) {
-  const auto write = [&](const char* name, const std::string& text) {
-    std::ofstream(temp_.path() / name, std::ios::binary) << text;
-  };
   const auto save = [&](std::uint8_t red) {
     write_png(Image{1, 1, {red, 0, 0}}, temp_.path() / "p.png");
   };
-  write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
-  write("m.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+  temp_.write("m.obj",
+              "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  temp_.write("m.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
 "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
 "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "m.bin"}]})");
@@ -149,7 +138,7 @@ TEST_F(SweepFile, TheIdIsThatOfWhatAMeshRefersToAsWell) {
   };
   std::set<std::string> ids = {id("m.obj")};  // nothing of it is there yet
   for (const std::string colour : {"1 1 1", "1 0 0"}) {
-    write("m.mtl", "newmtl a\nKd " + colour + "\nmap_Kd p.png\n");
+    temp_.write("m.mtl", "newmtl a\nKd " + colour + "\nmap_Kd p.png\n");
     ids.insert(id("m.obj"));
     for (const int red : {10, 20}) {
       save(static_cast<std::uint8_t>(red));
@@ -158,11 +147,11 @@ TEST_F(SweepFile, TheIdIsThatOfWhatAMeshRefersToAsWell) {
   }
   EXPECT_EQ(ids.size(), 6U);  // with the second library the picture is there from the start
   save(10);
-  write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd p.png\n");
+  temp_.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd p.png\n");
   EXPECT_TRUE(ids.contains(id("m.obj")));
-  write("m.bin", points(1.0F));
+  temp_.write("m.bin", points(1.0F));
   const std::string of_gltf = id("m.gltf");
-  write("m.bin", points(2.0F));
+  temp_.write("m.bin", points(2.0F));
   EXPECT_NE(id("m.gltf"), of_gltf);
 }
 
@@ -203,9 +192,9 @@ TEST_F(SweepFile, AKeyThatALaterVersionAddsLeavesTheIdAsItWas) {
 }
 
 TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
-  write_triangle(temp_.path() / "a" / "m.obj");
-  write_triangle(temp_.path() / "b" / "n.obj");
-  write_triangle(temp_.path() / "c" / "m.obj", 1.25);
+  write_triangle("a/m.obj");
+  write_triangle("b/n.obj");
+  write_triangle("c/m.obj", 1.25);
   const auto id = [&](const std::string& entry) {
     return cells_of(read("scenarios: {scenario: smoke, " + entry + "}\n"))[0].id;
   };
@@ -218,8 +207,8 @@ TEST_F(SweepFile, AMeshCountsByItsContentWhereverItLies) {
 }
 
 TEST_F(SweepFile, AMeshThatCannotBeReadIsTheFaultOfItsOwnCell) {
-  write_triangle(temp_.path() / "m.obj");
-  std::ofstream(temp_.path() / "cut.glb") << "glTF";
+  write_triangle("m.obj");
+  temp_.write("cut.glb", "glTF");
   const std::string good = "{name: good, scenario: smoke, mesh: m.obj, bounds: auto}";
   const std::vector<Cell> cells = cells_of(read(
       "scenarios: [{name: bad, scenario: smoke, mesh: cut.glb, bounds: auto}, " + good + "]\n"));
@@ -228,8 +217,8 @@ TEST_F(SweepFile, AMeshThatCannotBeReadIsTheFaultOfItsOwnCell) {
 }
 
 TEST_F(SweepFile, RelativePathsMeanBesideTheFile) {
-  write_triangle(temp_.path() / "m.obj");
-  std::ofstream(temp_.path() / "mine.yaml") << "name: own\ncameras: [{}]\n";
+  write_triangle("m.obj");
+  temp_.write("mine.yaml", "name: own\ncameras: [{}]\n");
   const Sweep sweep = read("scenarios: [{scenario: mine.yaml, mesh: m.obj}, ./mine.yaml]\n");
   EXPECT_EQ(sweep.scenarios[0].name, "m");
   EXPECT_EQ(sweep.scenarios[1].name, "mine");
