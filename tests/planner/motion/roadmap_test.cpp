@@ -76,9 +76,8 @@ TEST(Roadmap, InEmptySpaceWaysAreNearlyStraight) {
 }
 
 TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
-  OccupancyGrid grid = free_grid(kBox);
-  fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(4, 0.2, 4)));  // leaves a gap at large x
-  World world(std::move(grid));
+  // leaves a gap at large x
+  World world(free_grid(kBox, Box3(Vec3(-6, -0.2, 0), Vec3(4, 0.2, 4))));
   const auto behind = world.roadmap.add(Vec3(-5, 5, 1));
   world.follow(Vec3(-5, -5, 1));
   ASSERT_TRUE(is_reachable(world.roadmap, behind));
@@ -89,9 +88,7 @@ TEST(Roadmap, AWallIsGoneAroundAndItsLegsAreOpen) {
 }
 
 TEST(Roadmap, BehindAClosedWallNothingIsReached) {
-  OccupancyGrid grid = free_grid(kBox);
-  fill(grid, Box3(Vec3(-6, -0.2, 0), Vec3(6, 0.2, 4)));
-  World world(std::move(grid));
+  World world(free_grid(kBox, Box3(Vec3(-6, -0.2, 0), Vec3(6, 0.2, 4))));
   for (Roadmap::Node place = 1; place < world.roadmap.size(); ++place) {
     const bool is_on_this_side = world.roadmap.p_world_m(place).y() < -0.7;
     const bool is_other_side = world.roadmap.p_world_m(place).y() > 0.0;
@@ -106,10 +103,8 @@ TEST(Roadmap, BehindAClosedWallNothingIsReached) {
 }
 
 TEST(Roadmap, AWayThatIsKeptLearnsOfPlacesThatOpen) {
-  OccupancyGrid grid = free_grid(kBox);
   const Box3 block_m(Vec3(2, 2, 0), Vec3(6, 6, 4));
-  fill(grid, block_m);
-  World world(std::move(grid));
+  World world(free_grid(kBox, block_m));
   const Roadmap::Node from = 1;
   Roadmap::Node within = 1;
   while (!(world.roadmap.p_world_m(within) - Vec3(4, 4, 2)).isZero(0.6)) ++within;
@@ -152,9 +147,7 @@ TEST(Roadmap, LeadsFromAVoxelThatNobodyHasSeen) {
 /// Under a wing that it saw late, the vehicle is nearer to all of it than its radius: wherever it
 /// goes, it comes as near to some of it.
 TEST(Roadmap, LeadsOutFromUnderAWing) {
-  OccupancyGrid grid = free_grid(kBox);
-  fill(grid, Box3(Vec3(-3, -3, 1.4), Vec3(3, 3, 2)));
-  World world(std::move(grid));
+  World world(free_grid(kBox, Box3(Vec3(-3, -3, 1.4), Vec3(3, 3, 2))));
   const Vec3 here_m(0.13, -0.21, 0.97);
   ASSERT_FALSE(is_sphere_clear(world.grid, here_m, kRadius_m));
   world.follow(here_m);
@@ -174,9 +167,7 @@ TEST(Roadmap, ANodeBesideTheLatticeIsLinkedToAllAboutIt) {
     for (const double side : {-1.0, 1.0}) {
       Box3 wall_m = kBox;
       (side > 0.0 ? wall_m.max() : wall_m.min())[axis] = 0.7 * side;
-      OccupancyGrid grid = free_grid(kBox);
-      fill(grid, wall_m);
-      World world(std::move(grid));
+      World world(free_grid(kBox, wall_m));
       Vec3 p_world_m(0.0, 0.0, 2.0);
       p_world_m[axis] = 1.6 * side;
       const Roadmap::Node added = world.roadmap.add(p_world_m);

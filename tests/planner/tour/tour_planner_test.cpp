@@ -143,9 +143,7 @@ const Patch kFacingEast{
 
 /// By the definition: before the patch, in a camera's image once the vehicle is turned to it.
 TEST(SurfaceNodes, SeeThePatchFromBeforeItWithinTheImage) {
-  OccupancyGrid grid = free_grid(kBox);
-  fill(grid, Box3(Vec3(-0.2, -0.6, 3.4), Vec3(0.2, 0.6, 4.8)));
-  const World world(std::move(grid));
+  const World world(free_grid(kBox, Box3(Vec3(-0.2, -0.6, 3.4), Vec3(0.2, 0.6, 4.8))));
   const std::vector<Vec3> nodes = world.nodes(kFacingEast);
   ASSERT_FALSE(nodes.empty());
   const CameraConfig& camera = world.cameras.front().config;
@@ -160,9 +158,8 @@ TEST(SurfaceNodes, SeeThePatchFromBeforeItWithinTheImage) {
 }
 
 TEST(SurfaceNodes, AreNoneBehindAWallAndFoundOnceWhereSpaceOpens) {
-  OccupancyGrid grid = free_grid(kBox);
-  fill(grid, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8)));  // nearer than any node may be
-  World world(std::move(grid));
+  // nearer than any node may be
+  World world(free_grid(kBox, Box3(Vec3(0.8, -8, 0), Vec3(1.2, 8, 8))));
   EXPECT_TRUE(world.nodes(kFacingEast).empty());
   const std::vector<Patch> patches = {kFacingEast};
   SearchedCubes searched;
