@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-using test::add_rectangle;
+using test::add_sheet;
 using test::add_wall;
 using test::world_of;
 
@@ -73,7 +73,7 @@ TEST(ColourCapture, ASurfaceIsBrighterTheMoreItFacesTheSun) {
     const Vec3 normal = Eigen::AngleAxisd(deg_to_rad(turn_deg), axis) * sun;
     const Vec3 a = normal.cross(axis);
     TriangleMesh plate;
-    add_rectangle(plate, -2.0 * (a + axis), 4.0 * a, 4.0 * axis);
+    add_sheet(plate, -2.0 * (a + axis), 4.0 * a, 4.0 * axis);
     paint(plate, 0, {0.5F, 0.5F, 0.5F});
     // seen from the side of the sun, straight down, so that the ambient light varies little
     const ColourFrame frame = capture_colour(RayScene(world_of(plate, false)), camera, 0,
@@ -91,7 +91,7 @@ TEST(ColourCapture, BothSidesOfAFaceAreLitByTheirOwnNormal) {
   const Vec3 along(-std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0);
   for (const double sense : {1.0, -1.0}) {
     TriangleMesh wall;
-    add_rectangle(wall, -5.0 * sense * along - Vec3(0, 0, 5), 10.0 * sense * along, {0, 0, 10});
+    add_sheet(wall, -5.0 * sense * along - Vec3(0, 0, 5), 10.0 * sense * along, {0, 0, 10});
     const RayScene scene(world_of(wall, false));
     const CameraModel camera = colour_camera(0.0, 8, 8);
     const Vec3 towards(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
@@ -107,8 +107,8 @@ TEST(ColourCapture, BothSidesOfAFaceAreLitByTheirOwnNormal) {
 /// A plain floor at 1 m and a plate 2 m above it, which is of the part of the world.
 World shaded(TriangleMesh World::*part) {
   World world = world_of({}, false);
-  add_rectangle(world.structure, {-20, -20, 1.0}, {40, 0, 0}, {0, 40, 0});
-  add_rectangle(world.*part, {-0.7, -0.5, 3.0}, {1.5, 0, 0}, {0, 1.0, 0});
+  add_sheet(world.structure, {-20, -20, 1.0}, {40, 0, 0}, {0, 40, 0});
+  add_sheet(world.*part, {-0.7, -0.5, 3.0}, {1.5, 0, 0}, {0, 1.0, 0});
   return world;
 }
 
@@ -160,7 +160,7 @@ TEST(ColourCapture, APictureThatFillsTheFrameIsTheFrame) {
     image.rgb.push_back(static_cast<std::uint8_t>(random() % 256));
   }
   TriangleMesh wall;  // 4 m ahead, seen from the side of its front: right is -y, up is z
-  add_rectangle(wall, {4, 4, -4}, {0, -8, 0}, {0, 0, 8});
+  add_sheet(wall, {4, 4, -4}, {0, -8, 0}, {0, 0, 8});
   paint(wall, 0, {1.0F, 1.0F, 1.0F});
   const auto seen = [&] {
     return capture_colour(RayScene(world_of(wall, false)), camera, 0, Isometry::Identity(), 1);

@@ -15,7 +15,7 @@
 namespace gnbv {
 namespace {
 
-using test::add_rectangle;
+using test::add_sheet;
 using test::is_standard;
 using test::world_of;
 
@@ -39,7 +39,7 @@ TriangleMesh slanted_wall(double z_m, double tilt_rad) {
   TriangleMesh wall;
   const Vec3 along(-std::sin(tilt_rad), std::cos(tilt_rad), 0.0);
   const Vec3 up(0.0, 0.0, 20.0);
-  add_rectangle(wall, Vec3(z_m, 0, 0) - 40.0 * along - up, 80.0 * along, 2.0 * up);
+  add_sheet(wall, Vec3(z_m, 0, 0) - 40.0 * along - up, 80.0 * along, 2.0 * up);
   return wall;
 }
 

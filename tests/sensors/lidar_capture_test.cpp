@@ -46,11 +46,11 @@ TEST(LidarCapture, DefaultTiltPointsTheFanDownTenDegrees) {
 
 TEST(LidarCapture, BeamsRunCounterClockwiseFromTheRightAndWhatIsTooNearHides) {
   TriangleMesh panels;  // 1 m wide: right at 2 m, ahead at 3 m, left at 4 m; and 45 degrees right
-  test::add_rectangle(panels, {0.03, -0.05, -1}, {0.02, 0.02, 0}, {0, 0, 2});
-  test::add_rectangle(panels, {1, -2, -1}, {1, 1, 0}, {0, 0, 2});
-  test::add_rectangle(panels, {-0.5, -2, -1}, {1, 0, 0}, {0, 0, 2});
+  test::add_sheet(panels, {0.03, -0.05, -1}, {0.02, 0.02, 0}, {0, 0, 2});
+  test::add_sheet(panels, {1, -2, -1}, {1, 1, 0}, {0, 0, 2});
+  test::add_sheet(panels, {-0.5, -2, -1}, {1, 0, 0}, {0, 0, 2});
   add_wall(panels, 3.0, -0.5, 0.5, -1, 1);
-  test::add_rectangle(panels, {-0.5, 4, -1}, {1, 0, 0}, {0, 0, 2});
+  test::add_sheet(panels, {-0.5, 4, -1}, {1, 0, 0}, {0, 0, 2});
   const RayScene scene(world_of(panels, false));
   const LidarScan scan = sweep(scene, lidar_with(0.0), Isometry::Identity());
   ASSERT_EQ(scan.range_m.size(), 721U);
@@ -97,8 +97,8 @@ World walled() {
   test::add_wall(world.structure, 4.0, -1, 1, -0.5, 2);
   test::add_wall(world.obstacles, 2.0, -1, 1, -0.5, 2);
   world.obstacles.materials[0].name = "fence";
-  test::add_rectangle(world.terrain, {-20, -20, -1}, {30, 0, 0}, {0, 40, 0});
-  test::add_rectangle(world.terrain, {10, -20, 1}, {10, 0, 0}, {0, 40, 0});
+  test::add_sheet(world.terrain, {-20, -20, -1}, {30, 0, 0}, {0, 40, 0});
+  test::add_sheet(world.terrain, {10, -20, 1}, {10, 0, 0}, {0, 40, 0});
   world.terrain.materials[0].name = "soil";
   world.terrain_floor_z_m = 0.0;
   return world;

@@ -10,7 +10,7 @@
 namespace gnbv {
 namespace {
 
-using test::add_rectangle;
+using test::add_sheet;
 using test::add_wall;
 using test::world_of;
 
@@ -39,8 +39,8 @@ TEST(RollingScan, OfAMovingVehicleIsSkewedByItsSpeedTimesTheBeamsTime) {
   EXPECT_DOUBLE_EQ(duration_s, 0.0125);  // 180 degrees at 40 Hz
   TriangleMesh room;
   add_wall(room, 6.0, -200, 200, -1, 1);
-  add_rectangle(room, {-50, -6, -1}, {100, 0, 0}, {0, 0, 2});
-  add_rectangle(room, {-50, 6, -1}, {100, 0, 0}, {0, 0, 2});
+  add_sheet(room, {-50, -6, -1}, {100, 0, 0}, {0, 0, 2});
+  add_sheet(room, {-50, 6, -1}, {100, 0, 0}, {0, 0, 2});
   const RayScene scene(world_of(room, false));
   for (const Vec3& v_m_s : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(-0.4, 0.7, 0)}) {
     const std::vector<Isometry> poses = {at(Vec3::Zero()), at(0.5 * duration_s * v_m_s),
@@ -80,7 +80,7 @@ TEST(RollingScan, OfATurningVehicleIsTwistedAndBeamsFollowThePosesTheyAreGiven) 
   const LidarModel lidar = make_lidar_model(rolling_lidar());
   const double duration_s = sweep_duration_s(lidar.config);
   TriangleMesh wall;
-  add_rectangle(wall, {-50, 6, -1}, {100, 0, 0}, {0, 0, 2});
+  add_sheet(wall, {-50, 6, -1}, {100, 0, 0}, {0, 0, 2});
   add_wall(wall, 6.0, -200, 6, -1, 1);
   const RayScene scene(world_of(wall, false));
   const auto azimuth_rad = [](double beam) { return deg_to_rad(-90.0 + 0.25 * beam); };

@@ -156,7 +156,7 @@ TEST_P(RaySceneOfEither, DistanceToStructureEqualsBruteForceAndIgnoresTheGround)
     const Vec3 p_world_m(x, y, 6.0 + coordinate(generator));
     double expected_m = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
-      expected_m = std::min(expected_m, slow_distance(p_world_m, test::corners(soup, f)));
+      expected_m = std::min(expected_m, slow_distance(p_world_m, face_corners_m(soup, f)));
     }
     // both in double: only the order of operations differs
     ASSERT_NEAR(scene.distance_to_structure_m(p_world_m, 100.0), expected_m, 1e-9) << i;

@@ -8,25 +8,16 @@
 #include <utility>
 
 #include "sim/mesh/world.hpp"
+#include "tests/bench/shapes.hpp"
 
 namespace gnbv::test {
 
 inline World world_of(TriangleMesh mesh, bool has_ground) { return {std::move(mesh), has_ground}; }
 
-/// Adds the rectangle corner, corner + a, corner + a + b, corner + b.
-inline void add_rectangle(TriangleMesh& mesh, const Vec3& corner, const Vec3& a, const Vec3& b) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices_m.size());
-  for (const Vec3& p : {corner, Vec3(corner + a), Vec3(corner + a + b), Vec3(corner + b)}) {
-    mesh.vertices_m.push_back(p.cast<float>());
-  }
-  mesh.faces.push_back({first, first + 1, first + 2});
-  mesh.faces.push_back({first, first + 2, first + 3});
-}
-
 /// Wall in the plane x = x_m, over [y0, y1] x [z0, z1].
 inline void add_wall(TriangleMesh& mesh, double x_m, double y0_m, double y1_m, double z0_m,
                      double z1_m) {
-  add_rectangle(mesh, {x_m, y0_m, z0_m}, {0, y1_m - y0_m, 0}, {0, 0, z1_m - z0_m});
+  add_sheet(mesh, {x_m, y0_m, z0_m}, {0, y1_m - y0_m, 0}, {0, 0, z1_m - z0_m});
 }
 
 /// By 128 parallels and twice as many meridians, vertices on the sphere: no point of it lies nearer
@@ -70,12 +61,6 @@ inline TriangleMesh random_soup(int triangles, double extent_m, const Vec3& cent
   return mesh;
 }
 
-inline std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::size_t face) {
-  const auto& [a, b, c] = mesh.faces[face];
-  return {mesh.vertices_m[a].cast<double>(), mesh.vertices_m[b].cast<double>(),
-          mesh.vertices_m[c].cast<double>()};
-}
-
 struct BruteHit {
   double distance = std::numeric_limits<double>::infinity();  // in units of the direction
   int face = -1;
@@ -87,7 +72,7 @@ inline BruteHit brute_first_hit(const TriangleMesh& mesh, const Vec3& origin,
                                 const Vec3& direction) {
   BruteHit best;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-    const auto [a, b, c] = corners(mesh, i);
+    const auto [a, b, c] = face_corners_m(mesh, i);
     const Vec3 p = direction.cross(c - a);
     const double det = (b - a).dot(p);
     if (det == 0.0) continue;

@@ -41,16 +41,10 @@ TriangleMesh triangles() {
   return mesh;
 }
 
-std::array<Vec3, 3> corners(const TriangleMesh& mesh, std::uint32_t face) {
-  std::array<Vec3, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = mesh.vertices_m[mesh.faces[face][i]].cast<double>();
-  return p;
-}
-
 TEST(SurfaceSamples, LieOnTheirFace) {
   const TriangleMesh mesh = triangles();
   for (const SurfaceSample& s : sample_surface(mesh, 0.03)) {
-    const auto [a, b, c] = corners(mesh, s.face);
+    const auto [a, b, c] = face_corners_m(mesh, s.face);
     const Vec3 p = s.p_world_m.cast<double>();
     // the three parts of a triangle are as large as the whole for points on it, larger for others;
     // 1e-6 m2 is float's rounding at 3 m times edges of 3 m
@@ -65,7 +59,7 @@ TEST(SurfaceSamples, NoPointOfAFaceIsFartherThanTheSpacingAllows) {
   const double spacing_m = 0.1;
   const std::vector<SurfaceSample> samples = sample_surface(mesh, spacing_m);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto [a, b, c] = corners(mesh, f);
+    const auto [a, b, c] = face_corners_m(mesh, f);
     for (std::uint64_t i = 0; i < 200; ++i) {
       double u = uniform01({2, Stream::bench, f, 2 * i});
       double v = uniform01({2, Stream::bench, f, 2 * i + 1});
@@ -119,11 +113,7 @@ TEST(SurfacePieces, OfAFaceHaveItsArea) {
   for_all_pieces(mesh, -10.0,
                  [&](const SurfacePiece& piece) { sums_m2[piece.face] += piece.area_m2; });
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto corner = [&](std::size_t k) {
-      return mesh.vertices_m[mesh.faces[f][k]].cast<double>();
-    };
-    const double area_m2 =
-        0.5 * Vec3(corner(1) - corner(0)).cross(Vec3(corner(2) - corner(0))).norm();
+    const double area_m2 = face_area_m2(mesh, f);
     EXPECT_NEAR(sums_m2[f], area_m2, 1e-9 * area_m2 + 1e-15) << f;
   }
 }
