@@ -17,11 +17,7 @@ using test::world_of;
 using Rgb = std::array<std::uint8_t, 3>;
 
 CameraModel colour_camera(double pitch_rad, int width_px = 160, int height_px = 120) {
-  CameraConfig config;
-  config.width_px = width_px;
-  config.height_px = height_px;
-  config.pitch_rad = pitch_rad;
-  return make_camera_model(config);
+  return make_camera_model({.width_px = width_px, .height_px = height_px, .pitch_rad = pitch_rad});
 }
 
 /// Gives the faces from `first` on the material of this colour.
@@ -150,10 +146,8 @@ INSTANTIATE_TEST_SUITE_P(OfEachPartOfTheWorld, Shadow,
 TEST(ColourCapture, APictureThatFillsTheFrameIsTheFrame) {
   // as many pixels as the camera has, on a wall that fills its view: each ray meets the centre of
   // its pixel. Oracle: the picture's colours times the light of the same wall in white.
-  CameraConfig config;
-  config.width_px = config.height_px = 32;
-  config.fov_x_rad = config.fov_y_rad = kPi / 2.0;
-  const CameraModel camera = make_camera_model(config);
+  const CameraModel camera = make_camera_model(
+      {.width_px = 32, .height_px = 32, .fov_x_rad = kPi / 2.0, .fov_y_rad = kPi / 2.0});
   std::mt19937 random(46);
   Image image{32, 32, {}};
   for (int i = 0; i < 3 * 32 * 32; ++i) {

@@ -11,13 +11,11 @@ using test::world_of;
 
 CameraModel camera_with(double pitch_rad, double range_min_m, double range_max_m, int width_px = 64,
                         int height_px = 48) {
-  CameraConfig config;
-  config.width_px = width_px;
-  config.height_px = height_px;
-  config.pitch_rad = pitch_rad;
-  config.range_min_m = range_min_m;
-  config.range_max_m = range_max_m;
-  return make_camera_model(config);
+  return make_camera_model({.width_px = width_px,
+                            .height_px = height_px,
+                            .range_min_m = range_min_m,
+                            .range_max_m = range_max_m,
+                            .pitch_rad = pitch_rad});
 }
 
 float at(const CameraModel& camera, const DepthFrame& frame, int u, int v) {

@@ -23,15 +23,14 @@ constexpr DepthNoise kModels[] = {DepthNoise::released, DepthNoise::khoshelham, 
                                   DepthNoise::stereo};
 
 CameraConfig narrow_camera(DepthNoise model) {
-  CameraConfig config;
-  config.width_px = 240;
-  config.height_px = 160;
-  config.fov_x_rad = deg_to_rad(3.0);  // so that depth and incidence are nearly the same everywhere
-  config.fov_y_rad = deg_to_rad(2.0);
-  config.range_min_m = 0.1;
-  config.range_max_m = 20.0;
-  config.noise.model = model;
-  return config;
+  // so narrow that depth and incidence are nearly the same everywhere
+  return {.width_px = 240,
+          .height_px = 160,
+          .fov_x_rad = deg_to_rad(3.0),
+          .fov_y_rad = deg_to_rad(2.0),
+          .range_min_m = 0.1,
+          .range_max_m = 20.0,
+          .noise = {.model = model}};
 }
 
 /// A wall through (z_m, 0, 0) whose normal is `tilt_rad` off the camera's axis, about body z.
@@ -84,10 +83,8 @@ TEST(DepthNoise, GrowsWithTheSquareOfTheDepthAsEachSourceHasIt) {
   const CameraModel kinect = make_camera_model(narrow_camera(DepthNoise::khoshelham));
   EXPECT_NEAR(depth_sigma_m(kinect, 5.0, 0.0), 0.0356, 1e-4);
   // the ZED Mini at 1280 x 720, as its maker's figures give it
-  CameraConfig zed;
-  zed.width_px = 1280;
-  zed.fov_x_rad = deg_to_rad(90.0);
-  zed.noise = {DepthNoise::stereo, 0.063, 0.1};
+  const CameraConfig zed{
+      .width_px = 1280, .fov_x_rad = deg_to_rad(90.0), .noise = {DepthNoise::stereo, 0.063, 0.1}};
   EXPECT_NEAR(depth_sigma_m(make_camera_model(zed), 1.0, 0.0), 2.48e-3, 5e-6);
 }
 

@@ -103,12 +103,8 @@ TEST(Lens, AModelThatFoldsEndsBeforeItDoes) {
 }
 
 CameraModel camera_of(const DistortionConfig& distortion, double fx_px = 0.0) {
-  CameraConfig config;
-  config.width_px = 90;
-  config.height_px = 70;
-  config.fx_px = fx_px;
-  config.distortion = distortion;
-  return make_camera_model(config);
+  return make_camera_model(
+      {.width_px = 90, .height_px = 70, .fx_px = fx_px, .distortion = distortion});
 }
 
 TEST(LensCamera, ALensThatDoesNothingIsThePinhole) {

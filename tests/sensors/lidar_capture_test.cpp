@@ -14,12 +14,7 @@ using test::add_wall;
 using test::world_of;
 
 /// One beam exactly forward: an odd number of them.
-LidarConfig lidar_with(double pitch_rad) {
-  LidarConfig config;
-  config.beams = 721;
-  config.pitch_rad = pitch_rad;
-  return config;
-}
+LidarConfig lidar_with(double pitch_rad) { return {.beams = 721, .pitch_rad = pitch_rad}; }
 constexpr std::size_t kForward = 360;
 
 /// A sweep from one place.

@@ -14,13 +14,7 @@ using test::add_sheet;
 using test::add_wall;
 using test::world_of;
 
-LidarConfig rolling_lidar() {
-  LidarConfig config;
-  config.beams = 721;
-  config.pitch_rad = 0.0;
-  config.rolling = true;
-  return config;
-}
+LidarConfig rolling_lidar() { return {.beams = 721, .pitch_rad = 0.0, .rolling = true}; }
 
 Isometry at(const Vec3& p_world_m, double yaw_rad = 0.0) {
   return T_world_body({p_world_m, yaw_rad});
@@ -124,9 +118,7 @@ TEST(RangeNoise, IsNormalWithItsSigma) {
 }
 
 TEST(RangeNoise, IsKeyedBySeedTickAndLidar) {
-  LidarConfig config;
-  config.range_sigma_m = 0.01;
-  const LidarModel lidar = make_lidar_model(config);
+  const LidarModel lidar = make_lidar_model({.range_sigma_m = 0.01});
   const RayScene scene(world_of(test::sphere({0, 0, 0}, 8.0), false));
   const Isometry pose = Isometry::Identity();
   const auto ranges = [&](int index, const NoiseKey& key) {

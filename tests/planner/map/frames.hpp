@@ -10,12 +10,10 @@
 namespace gnbv {
 
 inline CameraModel camera_of(int width_px, int height_px, double fov_x_deg, double fov_y_deg) {
-  CameraConfig config;
-  config.width_px = width_px;
-  config.height_px = height_px;
-  config.fov_x_rad = deg_to_rad(fov_x_deg);
-  config.fov_y_rad = deg_to_rad(fov_y_deg);
-  return make_camera_model(config);
+  return make_camera_model({.width_px = width_px,
+                            .height_px = height_px,
+                            .fov_x_rad = deg_to_rad(fov_x_deg),
+                            .fov_y_rad = deg_to_rad(fov_y_deg)});
 }
 
 /// Any position in the box and any attitude.

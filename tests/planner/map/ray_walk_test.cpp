@@ -27,11 +27,7 @@ std::vector<Key> walked(const GridGeometry& grid, const Vec3f& origin_m, const V
   return keys;
 }
 
-OctomapTwin twin_of(double resolution_m) {
-  OccupancyConfig config;
-  config.resolution_m = resolution_m;
-  return OctomapTwin(config);
-}
+OctomapTwin twin_of(double resolution_m) { return OctomapTwin({.resolution_m = resolution_m}); }
 
 /// A point of the box with some coordinates moved onto a voxel border, or onto those of `other`.
 Vec3f awkward_point(Random& random, double resolution_m, const Vec3f& other) {
@@ -114,12 +110,7 @@ TEST(GridGeometry, RefusesWhatItCannotHold) {
 
 constexpr double kFloor_m = 0.3;
 
-CameraModel small_camera() {
-  CameraConfig config;
-  config.width_px = 4;
-  config.height_px = 2;
-  return make_camera_model(config);
-}
+CameraModel small_camera() { return make_camera_model({.width_px = 4, .height_px = 2}); }
 
 DepthFrame frame_of(const CameraModel& camera, float depth_m) {
   DepthFrame frame;
@@ -173,8 +164,7 @@ TEST(RaysOf, ReturnsLieAtTheirDepthAndNoneClearsToThePlaneAtMaximumRange) {
 }
 
 TEST(RaysOf, LidarRangesAreSpherical) {
-  LidarConfig lidar;
-  lidar.beams = 5;
+  const LidarConfig lidar{.beams = 5};
   LidarScan scan;
   scan.T_world_lidar = T_world_body({Vec3(1, 2, 20), 0.3}) * T_body_lidar(lidar);
   scan.range_m = {kNoReturn, kInvalidRange, 7.0F, 31.0F, 0.05F};

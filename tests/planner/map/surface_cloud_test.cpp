@@ -18,10 +18,7 @@ namespace {
 const Box3 kBox_m(Vec3(-2, -2, 0), Vec3(2, 2, 2));
 
 std::vector<Vec3f> points_of_frame(const ViewPose& pose) {
-  CameraConfig config;
-  config.width_px = 160;
-  config.height_px = 120;
-  const CameraModel camera = make_camera_model(config);
+  const CameraModel camera = make_camera_model({.width_px = 160, .height_px = 120});
   const DepthFrame frame = analytic_depth(example_scene(), camera, T_world_body(pose));
   std::vector<Vec3f> points;
   for (const ScanRay& ray : rays_of(frame, camera, 0.3)) {

@@ -17,11 +17,7 @@ constexpr double kDetail_m = 0.05;
 constexpr double kNear_m = SurfaceCells::kNear * kDetail_m;
 const Box3 kBox(Vec3(-3, -3, 0), Vec3(3, 3, 4));
 
-CameraModel camera_with(DepthNoise noise) {
-  CameraConfig config;
-  config.noise.model = noise;
-  return make_camera_model(config);
-}
+CameraModel camera_with(DepthNoise noise) { return make_camera_model({.noise = {.model = noise}}); }
 
 TEST(Certainty, IsTheShareOfGaussianErrorsThatAreSmall) {
   const CameraModel camera = camera_with(DepthNoise::stereo);
