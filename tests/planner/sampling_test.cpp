@@ -82,16 +82,12 @@ TEST(Agvs, ScaleGrowsWhenUtilityIsLowAndUpToItsLimitIfAtAll) {
 }
 
 TEST(Agvs, ScaleGrowsWhenEntropyStandsStill) {
-  AgvsConfig config;
-  config.entropy_threshold_nat = 0.001;
-  config.entropy_window = 3;
+  AgvsConfig config{.entropy_threshold_nat = 0.001, .entropy_window = 3};
   // of 1000 voxels: still below 1 nat a view, up or down
   const std::vector<double> still = {900, 500, 499.5, 500.2, 500.1};
   const std::vector<double> moving = {500, 499.5, 498, 498.1};
   const auto scale = [&](const std::vector<double>& entropies_nat) {
-    History history;
-    history.entropies_nat = entropies_nat;
-    return next_agvs_scale(config, history, 1000.0);
+    return next_agvs_scale(config, {.entropies_nat = entropies_nat}, 1000.0);
   };
   EXPECT_EQ(scale(still), 1.5);
   EXPECT_EQ(scale(moving), 1.0);

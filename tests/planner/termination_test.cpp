@@ -68,9 +68,7 @@ TEST(NoNewPoints, AfterSoManyViewsInARowThatAddNone) {
 }
 
 TEST(EntropyChange, NeedsEveryViewOfAFullWindowToBeQuiet) {
-  TerminationConfig config;
-  config.entropy_window = 3;
-  config.entropy_change_percent = 0.001;
+  TerminationConfig config{.entropy_change_percent = 0.001, .entropy_window = 3};
   const auto end = [&](std::vector<double> entropies_nat) {
     return end_of(config, {.entropies_nat = std::move(entropies_nat)});
   };
@@ -122,13 +120,12 @@ TEST(MaxIterations, IsTheFirstRuleAndNoPlannerSwitchesItOff) {
 }
 
 TEST(EndAfterView, TheFirstRuleNamesTheEndAndAPlannerMaySwitchRulesOff) {
-  TerminationConfig config;
-  config.entropy_window = 1;
-  config.new_voxels_window = 1;
-  config.min_new_voxels_per_m = 1.0;
-  config.max_views_without_new_points = 1;
-  config.repeated_moves = 2;
-  config.repeated_by = RepeatedBy::places;
+  TerminationConfig config{.entropy_window = 1,
+                           .repeated_moves = 2,
+                           .repeated_by = RepeatedBy::places,
+                           .min_new_voxels_per_m = 1.0,
+                           .new_voxels_window = 1,
+                           .max_views_without_new_points = 1};
   EndRules rules;
   const auto end = [&](double entropy_nat, std::size_t voxels, std::size_t points, int views = 3) {
     return end_of(config,
@@ -168,9 +165,7 @@ TEST(NextDecision, ALegThatPassesTheLimitIsTooFarNotOneThatEndsOnIt) {
   History history = {.progress = {{.straight_m = 7.5}}};
   const auto is_too_far = [&](double leg_m) {
     const auto next = next_decision(config, {}, history, [&] {
-      Plan plan;
-      plan.views = {{.view = {Vec3(leg_m, 0, 0), 0}}};
-      return plan;
+      return Plan{.views = {{.view = {Vec3(leg_m, 0, 0), 0}}}};
     });
     return std::holds_alternative<Termination>(next) &&
            std::get<Termination>(next) == Termination::max_distance;

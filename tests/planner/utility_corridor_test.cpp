@@ -17,11 +17,9 @@ const double kOccupied_nat = -0.7 * std::log(0.7) - 0.3 * std::log(0.3);
 constexpr double kTolerance = 2e-6;  // float32 along the ray
 
 double value(const char* name, ViewStats stats, double path_m = 0.0) {
-  UtilityConfig config;
-  config.name = name;
   stats.density_max = 300.0;
   stats.path_m = path_m;
-  return score(config, stats).value().value;
+  return score({.name = name}, stats).value().value;
 }
 
 /// One letter a voxel: f free, o occupied; unknown for others, and beyond.
@@ -80,9 +78,8 @@ TEST(Utilities, HaveTheirSwitches) {
       corridor_of("f??o").look(1.2, {.detail = ViewDetail::rays, .legacy_visibility = true});
   EXPECT_NEAR(value("occlusion_aware", legacy),  // the chance of being occupied
               kFree_nat + (0.4 + 0.2) * kUnknown_nat + 0.1 * kOccupied_nat, kTolerance);
-  UtilityConfig config;
-  config.name = "bircher_volume";
-  config.volume_weights = {.unmapped = 0.5, .free = 2.0, .occupied = 4.0};
+  const UtilityConfig config{.name = "bircher_volume",
+                             .volume_weights = {.unmapped = 0.5, .free = 2.0, .occupied = 4.0}};
   EXPECT_NEAR(score(config, corridor_of("f??o").look(1.2))->value, (0.5 * 2 + 2.0 + 4.0) * 0.008,
               1e-12);
 }
@@ -129,11 +126,7 @@ TEST(AreaFactor, GivesEachRayOneVote) {
 
 TEST(AreaFactor, PeaksAtTheSharesWanted) {
   const auto of = [](std::uint32_t front, std::uint32_t shadow) {
-    ViewStats stats;
-    stats.rays = 100;
-    stats.front_rays = front;
-    stats.shadow_rays = shadow;
-    return value("area_factor", stats);
+    return value("area_factor", {.rays = 100, .shadow_rays = shadow, .front_rays = front});
   };
   for (const auto& [front, shadow, expected] : {std::tuple(20U, 80U, 2.0),
                                                 {0U, 0U, 0.0},

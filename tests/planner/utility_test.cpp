@@ -12,23 +12,17 @@ namespace {
 
 /// A view that saw 100 occupied, 200 free and 700 unknown voxels at half the full density.
 ViewStats view() {
-  ViewStats stats;
-  stats.occupied_voxels = 100;
-  stats.free_voxels = 200;
-  stats.unknown_voxels = 700;
-  stats.entropy_nat = 700 * std::numbers::ln2;
-  stats.entropy_per_ray_nat = 1234.5;
-  stats.density_sum = 100 * 150.0;
-  stats.density_max = 300.0;
-  stats.path_m = 2.0;
-  return stats;
+  return {.free_voxels = 200,
+          .unknown_voxels = 700,
+          .occupied_voxels = 100,
+          .entropy_nat = 700 * std::numbers::ln2,
+          .density_sum = 100 * 150.0,
+          .entropy_per_ray_nat = 1234.5,
+          .density_max = 300.0,
+          .path_m = 2.0};
 }
 
-UtilityConfig named(std::string_view name) {
-  UtilityConfig config;
-  config.name = name;
-  return config;
-}
+UtilityConfig named(std::string_view name) { return {.name = std::string(name)}; }
 
 TEST(ProposedUtility, IsEquations2And3WorkedByHand) {
   // E = 700 / 1000, D = 1 - 150 / 300, P = 0, weights normalised: 0.5 / (0.5 + 0.5)

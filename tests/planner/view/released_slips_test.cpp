@@ -155,9 +155,7 @@ TEST(ExcludedHitVoxel, IsForTheBaselinesAlone) {
   const WallScene flat(0.0);
   VisitMarks marks(flat.grid.geometry().voxel_count());
   const auto occupied = [&](const char* name) {
-    UtilityConfig config;
-    config.name = name;
-    config.hit_voxel = HitVoxel::excluded;
+    const UtilityConfig config{.name = name, .hit_voxel = HitVoxel::excluded};
     return evaluate_view(flat.grid, flat.cloud, flat.rays, flat.pose, marks,
                          view_options(config, flat.shadow, 0.0))
         .occupied_voxels;
@@ -172,9 +170,7 @@ TEST(PredictionThatHidesHits, IsProposedsAloneAndNeedsAWeightForPrediction) {
   Corridor corridor(8);
   corridor.hit(2);
   const ShadowBand shadow({}, corridor.grid.geometry());
-  UtilityConfig config;
-  config.name = "proposed";
-  config.prediction_hides_hits = true;
+  UtilityConfig config{.name = "proposed", .prediction_hides_hits = true};
   const auto occupied = [&] {
     return evaluate_view(corridor.grid, corridor.cloud, Corridor::one_ray(1.2),
                          {Vec3(0.1, 0.1, 0.1), 0.0}, corridor.marks,
