@@ -35,17 +35,16 @@ TEST_F(MeshFile, FacesWithoutAreaAreDroppedAndReported) {
 TEST_F(MeshFile, BadFilesAreNamedWithTheirFault) {
   EXPECT_TRUE(says(complaint(file(folder_ / "absent.obj")), {"absent.obj: No such file"}));
   EXPECT_TRUE(says(complaint(file(folder_)), {"is a directory without model.sdf"}));
-  EXPECT_TRUE(says(complaint(file(write("a.xyzzy", "1 2 3"))), {"a.xyzzy: '.xyzzy' is no known"}));
+  EXPECT_TRUE(says(fault("a.xyzzy", "1 2 3"), {"a.xyzzy: '.xyzzy' is no known"}));
   for (const char* name : {"a.fbx", "a.x3d", "a.3ds", "a.off", "a.blend", "a.ifc", "a.obj.gz"}) {
-    EXPECT_TRUE(
-        says(complaint(file(write(name, "1 2 3"))), {".obj, .ply, .stl, .dae, .gltf, .glb"}));
+    EXPECT_TRUE(says(fault(name, "1 2 3"), {".obj, .ply, .stl, .dae, .gltf, .glb"}));
   }
-  EXPECT_TRUE(says(complaint(file(write("noextension", "1"))), {"no known mesh format"}));
+  EXPECT_TRUE(says(fault("noextension", "1"), {"no known mesh format"}));
   for (const char* name : {"e.obj", "e.ply", "e.stl", "e.dae", "e.glb"}) {
-    EXPECT_TRUE(says(complaint(file(write(name, ""))), {std::string(name) + ": is empty"})) << name;
+    EXPECT_TRUE(says(fault(name, ""), {std::string(name) + ": is empty"})) << name;
   }
   for (const char* name : {"b.obj", "b.ply", "b.stl", "b.dae", "b.glb", "b.gltf"}) {
-    EXPECT_TRUE(says(complaint(file(write(name, "no mesh at all\n"))), {name})) << name;
+    EXPECT_TRUE(says(fault(name, "no mesh at all\n"), {name})) << name;
   }
   EXPECT_TRUE(says(complaint(file("")), {"path is empty"}));
 }
@@ -53,7 +52,7 @@ TEST_F(MeshFile, BadFilesAreNamedWithTheirFault) {
 TEST_F(MeshFile, CoordinatesThatAreNotFiniteAreNamed) {
   for (const char* bad : {"nan", "inf", "-inf", "1e999"}) {
     const std::string text = std::string("v 0 0 0\nv 1 0 0\nv 0 ") + bad + " 0\nf 1 2 3\n";
-    EXPECT_TRUE(says(complaint(file(write("n.obj", text))), {":3: vertex 3"})) << bad;
+    EXPECT_TRUE(says(fault("n.obj", text), {":3: vertex 3"})) << bad;
   }
   TriangleMesh mesh = two_coloured_box();
   for (const float bad :
@@ -121,7 +120,7 @@ TEST_F(MeshFile, GarbageAmongTheVerticesIsRefused) {
 TEST_F(MeshFile, MoreThanAHundredthOfTheFacesLostIsRefusedUnlessAskedFor) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n";
   for (int i = 0; i < 98; ++i) text += "f 1 2 3\n";
-  EXPECT_EQ(complaint(file(write("a.obj", text + "f 1 2 3\n"))), "");
+  EXPECT_EQ(fault("a.obj", text + "f 1 2 3\n"), "");
   const auto path = write("b.obj", text);
   EXPECT_EQ(complaint(file(path)),
             path.string() +
@@ -129,7 +128,7 @@ TEST_F(MeshFile, MoreThanAHundredthOfTheFacesLostIsRefusedUnlessAskedFor) {
                 "allows: 1 faces of vertices that do not exist left out, the first in "
                 "line 4");
   EXPECT_EQ(load_mesh(forgiven(path)).faces.size(), 98U);
-  EXPECT_TRUE(says(complaint(file(write("c.obj", replaced(text, "f 1 2 9", "f 1 \x01 3")))),
+  EXPECT_TRUE(says(fault("c.obj", replaced(text, "f 1 2 9", "f 1 \x01 3")),
                    {"1 faces of 99 could not be used"}));
 }
 
@@ -185,8 +184,8 @@ TEST_F(MeshFile, AnObjHasUpTo65536Materials) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 65536; ++i) text += fmt::format("usemtl m{}\nf 1 2 3\n", i);
   EXPECT_EQ(load_mesh(file(write("t.obj", text))).materials.size(), 65536U);
-  EXPECT_TRUE(says(complaint(file(write("u.obj", text + "usemtl more\nf 1 2 3\n"))),
-                   {"u.obj: more than 65536 materials"}));
+  EXPECT_TRUE(
+      says(fault("u.obj", text + "usemtl more\nf 1 2 3\n"), {"u.obj: more than 65536 materials"}));
 }
 
 TEST_F(MeshFile, ObjAndPlyRoundTripsKeepEveryVertexFaceAndMaterial) {

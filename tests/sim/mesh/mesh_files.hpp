@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -14,11 +13,19 @@
 
 namespace gnbv::test {
 
+inline MeshFileConfig file(const std::filesystem::path& path) { return {.path = path.string()}; }
+
 class MeshFile : public testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return folder_ / name;
+    return temp_.write(name, content);
+  }
+  MeshReading read(const std::string& name, const std::string& content) const {
+    return read_mesh(file(write(name, content)));
+  }
+  /// The message of the BadInput that loading throws; empty when it loads.
+  std::string fault(const std::string& name, const std::string& content) const {
+    return fault_of([&] { load_mesh(file(write(name, content))); });
   }
 
   TempFolder temp_;
@@ -33,12 +40,6 @@ inline double volume_m3(const TriangleMesh& mesh) {
     sum += c[0].dot(c[1].cross(c[2])) / 6.0;
   }
   return sum;
-}
-
-inline MeshFileConfig file(const std::filesystem::path& path) {
-  MeshFileConfig config;
-  config.path = path.string();
-  return config;
 }
 
 /// One that may lose all of its faces.

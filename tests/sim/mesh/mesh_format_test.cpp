@@ -31,7 +31,7 @@ TEST_F(MeshFile, PlyThatBreaksItsHeadersPromisesIsRefused) {
   const std::string head = ply_header(8, 1);
   std::string vertices;
   for (int i = 0; i < 8; ++i) vertices += fmt::format("{} {} 0 0 0 0\n", i % 2, i / 2);
-  const auto with = [&](const std::string& text) { return complaint(file(write("p.ply", text))); };
+  const auto with = [&](const std::string& text) { return fault("p.ply", text); };
   EXPECT_EQ(with(head + vertices + "3 0 1 2\n"), "");
   for (const auto& [text, what] : std::vector<std::pair<std::string, const char*>>{
            {head + vertices + "3 0 1\n", "p.ply: ends before"},

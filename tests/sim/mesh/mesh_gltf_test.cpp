@@ -41,12 +41,6 @@ struct Gltf {
 
 class GltfFile : public MeshFile {
  protected:
-  MeshReading read(const std::string& name, const std::string& content) {
-    return read_mesh(file(write(name, content)));
-  }
-  std::string fault(const std::string& name, const std::string& content) {
-    return complaint(file(write(name, content)));
-  }
   /// Extent of the triangle of a glTF file: x, z up, and its area.
   void expect_triangle(const Gltf& gltf, const Box3& box_m, double area_m2, const char* what) {
     const MeshReading found = read("t.gltf", gltf.json());

@@ -12,9 +12,6 @@ class ModelFile : public test::MeshFile {
     warnings_.clear();
     return load_mesh(test::file(write(name, content)), &warnings_);
   }
-  std::string complaint_of(const std::string& name, const std::string& content) {
-    return test::complaint(test::file(write(name, content)));
-  }
   std::vector<std::string> warnings_;
 };
 
@@ -86,10 +83,8 @@ TEST_F(ModelFile, NamesAreThoseOfTheRightElement) {
                                   "<name>x</name><pose>5 0 0 0 0 0</pose></include>" + include +
                                   "<pose relative_to='x'>0 5 0 0 0 0</pose></include></model>")),
                 {{5, 0, 0}, {5, 5, 0}});
-  EXPECT_TRUE(
-      test::says(complaint_of("r.urdf", "<robot><link name='a'/>\n<link name='a'/></robot>"),
-                 {"r.urdf:2: a second link of the name 'a'"}));
-  std::filesystem::create_directories(folder_ / "m");
+  EXPECT_TRUE(test::says(fault("r.urdf", "<robot><link name='a'/>\n<link name='a'/></robot>"),
+                         {"r.urdf:2: a second link of the name 'a'"}));
   write("m/new.sdf", sdf("<model name='m'>" + at_x("link", 3) + "</model>"));
   write("m/model.config",
         "<model><sdf version='1.10'>new.sdf</sdf><sdf version='1.9'>old</sdf></model>");
@@ -128,7 +123,6 @@ TEST_F(ModelFile, IncludedModelsAndWorldsStandWhereTheyArePut) {
 }
 
 TEST_F(ModelFile, LinksOfAUrdfStandWhereJointsAtZeroPutThem) {
-  std::filesystem::create_directories(folder_ / "robot" / "urdf");
   const MeshFileConfig path = test::file(write("robot/urdf/r.urdf", R"(<robot name='r'>
     <link name='tip'><visual><origin xyz='1 0 0'/><geometry><box size='1 1 1'/></geometry>
       <material name='red'/></visual></link>
@@ -183,7 +177,7 @@ TEST_F(ModelFile, TheUpAxisOfColladaIsPassedOverAsGazeboDoes) {
 }
 
 TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
-  const auto of_sdf = [&](const std::string& model) { return complaint_of("m.sdf", sdf(model)); };
+  const auto of_sdf = [&](const std::string& model) { return fault("m.sdf", sdf(model)); };
   const auto of_visual = [&](const std::string& pose, const std::string& geometry) {
     return of_sdf("\n<model name='m'><link name='l'>\n" + visual(pose, geometry) +
                   "</link></model>");
@@ -216,14 +210,13 @@ TEST_F(ModelFile, WhatIsNotReadIsRefusedByLine) {
     EXPECT_TRUE(test::says(complaint, {words}));
   }
   const std::string joint = "<joint name='j'><parent link='a'/><child link='a'/></joint>";
-  EXPECT_TRUE(test::says(complaint_of("r.urdf", "<robot><link name='a'/>" + joint + "</robot>"),
+  EXPECT_TRUE(test::says(fault("r.urdf", "<robot><link name='a'/>" + joint + "</robot>"),
                          {"lead back to it"}));
-  EXPECT_TRUE(test::says(complaint_of("r.urdf", "<robot>" + joint + "</robot>"), {"is no link"}));
+  EXPECT_TRUE(test::says(fault("r.urdf", "<robot>" + joint + "</robot>"), {"is no link"}));
   for (const char* const call : {"<xacro:wheel side='left'/>", "<xacro:if value='1'/>"}) {
     for (const char* const declares : {" xmlns:xacro='x'", ""}) {
-      EXPECT_TRUE(
-          test::says(complaint_of("r.urdf", fmt::format("<robot{}>\n{}</robot>", declares, call)),
-                     {"r.urdf:2: is xacro"}));
+      EXPECT_TRUE(test::says(fault("r.urdf", fmt::format("<robot{}>\n{}</robot>", declares, call)),
+                             {"r.urdf:2: is xacro"}));
     }
   }
   std::filesystem::create_directories(folder_ / "none");

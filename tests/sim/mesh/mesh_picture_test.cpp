@@ -578,7 +578,6 @@ TEST_F(PictureFile, LooksFollowTheirFaces) {
 
 TEST_F(PictureFile, AModelsMeshesBringTheirs) {
   // as Gazebo's folders have it: meshes here, materials/textures there; mirrored, and moved by 3 m
-  std::filesystem::create_directories(folder_ / "meshes");
   std::filesystem::create_directories(folder_ / "materials/textures");
   std::filesystem::rename(folder_ / "four.png", folder_ / "materials/textures/four.png");
   write("meshes/a.dae", replaced(kDae, "four.png", "file:///home/them/four.png"));

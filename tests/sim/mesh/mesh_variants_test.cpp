@@ -87,12 +87,6 @@ std::string with_ends(const std::string& text, const std::string& end) {
 
 class MeshVariant : public MeshFile {
  protected:
-  MeshReading read(const std::string& name, const std::string& content) {
-    return read_mesh(file(write(name, content)));
-  }
-  std::string fault(const std::string& name, const std::string& content) {
-    return complaint(file(write(name, content)));
-  }
   /// The unit cube, in any order.
   void expect_cube(const std::string& name, const std::string& content, const std::string& what) {
     SCOPED_TRACE(what);

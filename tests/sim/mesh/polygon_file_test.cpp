@@ -125,7 +125,7 @@ TEST_F(MeshFile, ACountThatNoFileHoldsIsRefusedAtItsEnd) {
     std::string lie = ply;
     const std::size_t at = lie.find(element) + std::string_view(element).size();
     lie.replace(at, lie.find('\n', at) - at, "18446744073709551615");
-    EXPECT_TRUE(says(complaint(file(write("lie.ply", lie))), {"ends before all"})) << element;
+    EXPECT_TRUE(says(fault("lie.ply", lie), {"ends before all"})) << element;
   }
 }
 
