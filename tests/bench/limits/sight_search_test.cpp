@@ -17,11 +17,7 @@ namespace gnbv {
 namespace {
 
 CameraModel camera(double pitch_rad, const Vec3& p_body_m = Vec3::Zero()) {
-  CameraConfig config;
-  config.pitch_rad = pitch_rad;
-  config.p_body_m = p_body_m;
-  config.range_max_m = 5.0;
-  return make_camera_model(config);
+  return make_camera_model({.range_max_m = 5.0, .p_body_m = p_body_m, .pitch_rad = pitch_rad});
 }
 
 /// The nodes of a lattice from `corner` on, all legal and connected.

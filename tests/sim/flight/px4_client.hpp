@@ -12,17 +12,10 @@ namespace gnbv {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 inline Setpoint go_to(const Vec3& p_world_m, double yaw_rad = 0.0) {
-  Setpoint setpoint;
-  setpoint.p_world_m = p_world_m;
-  setpoint.yaw_rad = yaw_rad;
-  return setpoint;
+  return {.p_world_m = p_world_m, .yaw_rad = yaw_rad};
 }
 
-inline Setpoint fly_at(const Vec3& v_world_m_s) {
-  Setpoint setpoint;
-  setpoint.v_world_m_s = v_world_m_s;
-  return setpoint;
-}
+inline Setpoint fly_at(const Vec3& v_world_m_s) { return {.v_world_m_s = v_world_m_s}; }
 
 /// A wall of 20 m x 20 m at x, facing -x.
 inline World walled_world(float x_m = 3.0F) {
