@@ -20,6 +20,11 @@ ROUTE = ('planner.routes.views=[{position_m: [0, 5, 2]}, {position_m: [3.2, 0, 2
 GIMBAL = 'cameras.0.pitch_deg={min: 0, max: 60, step: 30}'
 NO_FLY = 'no_fly=[{min: [2.6, -0.8, 0], max: [4.5, 0.8, 3]}]'
 SCREEN = 'obstacles=[{box_m: {min: [-0.5, -1.6, 0], max: [0.5, -1.5, 1.6]}}]'
+# a pillar that goes up and down where the mission begins, and is waited for
+MOVER = ['start={position_m: [0, -3.2, 1.2], jitter_m: [0, 0, 0]}',
+         'planner.profiling.method=none',
+         'obstacles=[{box_m: {min: [-3.8, -2.6, 0], max: [-3.4, -2.2, 3]}, motion: {waypoints: '
+         '[{offset_m: [7.2, 0, 0]}], speed_m_s: 0.7, known: true}}]']
 # from few positions little is seen: a short search
 FEW_PLACES = ['cameras.0.width_px=64', 'cameras.0.height_px=48', 'cameras.0.fov_x_deg=90',
               'cameras.0.range_max_m=2', 'planner.validity.collision_radius_m=1']
@@ -35,6 +40,8 @@ MISSIONS = {
     'tour': ['planner.utility.name=tour'],
     'tour of a gimbal': ['planner.utility.name=tour', 'cameras.0.drop_probability=0.3', GIMBAL,
                          'wind.mean_m_s=[2, 1, 0]', NO_FLY, SCREEN],
+    'take-off': ['planner.utility.name=tour', 'planner.preset=takeoff'],
+    'known mover': ['planner.utility.name=tour', *MOVER],
     'oracle of views': ['planner.utility.name=oracle_views', *FEW_PLACES],
     'oracle of metres': ['planner.utility.name=oracle_metres', *FEW_PLACES],
     'oracle of seconds': ['planner.utility.name=oracle_seconds', 'planner.oracle.coverage=0.9',

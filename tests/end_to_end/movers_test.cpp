@@ -100,17 +100,5 @@ TEST(MovingObstacle, IsSeenAndItsOldPlacesAreSeenToBeFreeAgain) {
   EXPECT_GT(seen, 20U);
 }
 
-TEST(MovingObstacle, LeavesMissionsTheSameAtAnyNumberOfThreadsAndReplayed) {
-  const Scenario scenario = smoke(pillar(true, "tour"));
-  const Flown one(scenario, {}, 1);
-  MissionInputs again;
-  for (std::size_t i = 0; i < 5; ++i) again.replay.push_back(one.result.views[i].decision);
-  for (const Flown& other : {Flown(scenario, {}, 2), Flown(scenario, again, 2)}) {
-    EXPECT_TRUE(std::ranges::equal(one.result.belief.cloud.points_world_m(),
-                                   other.result.belief.cloud.points_world_m()));
-    EXPECT_EQ(one.result.flight_time_s, other.result.flight_time_s);
-  }
-}
-
 }  // namespace
 }  // namespace gnbv

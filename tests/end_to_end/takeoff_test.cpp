@@ -31,16 +31,6 @@ TEST(Takeoff, EndsByItselfWithAsMuchAsAfterAProfileInLessTime) {
   EXPECT_LT(flown.result.flight_time_s, 0.6 * profiled.result.flight_time_s);
 }
 
-TEST(Takeoff, TheResultDependsNeitherOnThreadsNorOnAStop) {
-  const Scenario scenario = takeoff({"planner.termination.max_iterations=12"});
-  const Flown one(scenario, {}, 1);
-  const std::string hash = result_sha256(one.result);
-  EXPECT_EQ(result_sha256(Flown(scenario, {}, 2).result), hash);
-  MissionInputs resumed;
-  for (std::size_t i = 0; i < 5; ++i) resumed.replay.push_back(one.result.views[i].decision);
-  EXPECT_EQ(result_sha256(Flown(scenario, resumed).result), hash);
-}
-
 TEST(Takeoff, BrakesWhereTheMissionEnds) {
   for (const std::uint64_t seed : {1, 3, 5}) {
     const std::string s = fmt::format("seed={}", seed);
