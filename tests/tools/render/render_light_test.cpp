@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/core/error.hpp"
+#include "tests/sim/mesh/mesh_files.hpp"
 #include "tools/render/renderer.hpp"
 #include "tools/scene/voxels.hpp"
 
@@ -23,12 +24,10 @@ RenderScene floor_scene(bool has_wall) {
 }
 
 RenderView floor_view() {
-  RenderView view;
-  view.width_px = 640;
-  view.height_px = 480;
-  view.T_world_camera = look_at({14.0, -6.0, 12.0}, {3.0, 0.0, 0.5});
-  view.to_light_world = Vec3(1.0, 0.0, 1.0);  // no shadow on the floor
-  return view;
+  return {.width_px = 640,
+          .height_px = 480,
+          .T_world_camera = look_at({14.0, -6.0, 12.0}, {3.0, 0.0, 0.5}),
+          .to_light_world = Vec3(1.0, 0.0, 1.0)};  // no shadow on the floor
 }
 
 double brightness(const Image& image, const RenderView& view, const Vec3& p_world_m) {
@@ -71,10 +70,8 @@ TEST(AmbientOcclusion, ReachesNoFartherThanAskedFor) {
 }
 
 TEST(Ghost, ShowsOneLayerAndWhatIsBehindIt) {
-  RenderView view;
-  view.width_px = 64;
-  view.height_px = 64;
-  view.T_world_camera = look_at({-9, 0, 0}, Vec3::Zero());
+  const RenderView view{
+      .width_px = 64, .height_px = 64, .T_world_camera = look_at({-9, 0, 0}, Vec3::Zero())};
   const auto centre = [&](int sheets, bool has_ball) {
     RenderScene scene;
     for (int i = 0; i < sheets; ++i) {
@@ -135,13 +132,8 @@ TEST(Voxels, AreSortedAsTheMapHasThem) {
   const SurfaceItem cubes = voxel_cubes(geometry, sorted.occupied, white, 1.0);
   EXPECT_EQ(cubes.mesh.faces.size(), 12U * sorted.occupied.size());
   // each cube is closed, looks outward and has the volume of its voxel
-  double volume_m3 = 0.0;
-  for (const auto& face : cubes.mesh.faces) {
-    const Vec3f& p = cubes.mesh.vertices_m[face[0]];
-    volume_m3 += static_cast<double>(
-        p.dot(cubes.mesh.vertices_m[face[1]].cross(cubes.mesh.vertices_m[face[2]])) / 6.0F);
-  }
-  EXPECT_NEAR(volume_m3, 0.008 * static_cast<double>(sorted.occupied.size()), 1e-4);
+  EXPECT_NEAR(test::volume_m3(cubes.mesh), 0.008 * static_cast<double>(sorted.occupied.size()),
+              1e-4);
 }
 
 /// Where colours are data, light bends them less: the shaded side comes nearer to the lit one.

@@ -29,12 +29,10 @@ SurfaceItem quad(double x_m, double half_m, const Rgb& colour) {
 }
 
 RenderView view_from(const Vec3& eye_m, const Vec3& target_m, int width_px, int height_px) {
-  RenderView view;
-  view.width_px = width_px;
-  view.height_px = height_px;
-  view.T_world_camera = look_at(eye_m, target_m);
-  view.to_light_world = Vec3(-1.0, 0.2, 0.4);
-  return view;
+  return {.width_px = width_px,
+          .height_px = height_px,
+          .T_world_camera = look_at(eye_m, target_m),
+          .to_light_world = Vec3(-1.0, 0.2, 0.4)};
 }
 
 // How much channel k stands out, in [0, 255]; the background is nearly grey.
@@ -134,9 +132,7 @@ TEST(Render, SameSceneGivesSameBytes) {
   scene.surfaces.push_back(quad(0.0, 1.0, kRed));
   scene.balls.push_back({{-1.0F, 0.5F, 1.0F}, 0.3F, kBlue, true});
   scene.tubes.push_back({{{-1, -2, 0}, {-1, 2, 1}, {-2, 2, 2}}, {kBlue}, 0.05F, true});
-  FrustumItem frustum;
-  frustum.face_opacity = 0.3F;
-  scene.frusta.push_back(frustum);
+  scene.frusta.push_back({.face_opacity = 0.3F});
   scene.ground = GroundItem{-1.5, 1.0, 5.0};
   const RenderView view = view_from({-9.0, 3.0, 4.0}, Vec3::Zero(), 320, 180);
   Renderer renderer;
