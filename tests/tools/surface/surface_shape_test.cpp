@@ -8,6 +8,7 @@
 #include "sensors/ray_scene.hpp"
 #include "sim/core/error.hpp"
 #include "sim/mesh/mesh_lint.hpp"
+#include "tests/sim/mesh/mesh_files.hpp"
 #include "tests/support/fault.hpp"
 #include "tests/support/made_run.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -85,12 +86,7 @@ TEST(Poisson, SurfaceOfASphereIsTheSphereWatertightAndOutward) {
   const TriangleMesh mesh = poisson(oriented(seen_sphere(), 2), 6);
   ASSERT_GT(mesh.faces.size(), 1000U);
   EXPECT_EQ(lint_mesh(mesh).open_edges, 0U);
-  double volume_m3 = 0.0;
-  for (const auto& f : mesh.faces) {
-    const auto p = [&](std::size_t k) { return mesh.vertices_m[f[k]].cast<double>(); };
-    volume_m3 += p(0).dot(p(1).cross(p(2))) / 6.0;  // positive where faces turn outwards
-  }
-  EXPECT_NEAR(volume_m3, 4.0 / 3.0 * kPi, 0.02);
+  EXPECT_NEAR(test::volume_m3(mesh), 4.0 / 3.0 * kPi, 0.02);
   for (const Vec3f& p_m : mesh.vertices_m) EXPECT_NEAR(p_m.norm(), kRadius_m, 0.005F);
 }
 
