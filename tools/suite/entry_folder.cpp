@@ -8,6 +8,7 @@
 
 #include "sim/core/error.hpp"
 #include "sim/core/file.hpp"
+#include "sim/core/sha256.hpp"
 #include "tools/run/file_names.hpp"
 #include "tools/run/iterations_csv.hpp"
 #include "tools/run/summary_json.hpp"
