@@ -59,7 +59,8 @@ void find_ways(Graph& graph, GraphNode from, Ways<Length>& ways, const HeedStop&
   reach(from);
   while (!open.empty()) {
     heed(stop);
-    const auto [found_m, rank, node] = open.top();
+    const auto [found_m, rank, nearest] = open.top();
+    const GraphNode node = nearest;  // clang 14 captures no binding
     open.pop();
     if (ways.is_done[node] != 0 || found_m > estimate_m(node)) continue;
     const AtNode next_step = graph.come_to(node, found_m);
