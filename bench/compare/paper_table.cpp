@@ -354,7 +354,7 @@ TextTable effort_columns(const PaperTable& paper,
       const auto budget = largest_figure(missions, paper.scenario, budget_of(effort));
       add({fmt::format("{}{}%{}", head, percent, behind),
            fmt::format("{}_to_{}", name_of(effort), percent), ColumnKind::counted},
-          [&](const auto& group) {
+          [&, effort = effort](const auto& group) {  // clang 14 captures no binding
             return effort_cell(group, figure_to_reach(effort, share), budget);
           });
       if (effort != Effort::wh_with_profile) continue;

@@ -101,7 +101,7 @@ std::vector<VoxelIndex> voxels_of(std::span<const FrontierCluster> clusters) {
     voxels.insert(voxels.end(), cluster.voxels.begin(), cluster.voxels.end());
   }
   std::ranges::sort(voxels);
-  voxels.erase(std::ranges::unique(voxels).begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return voxels;
 }
 

@@ -101,7 +101,8 @@ class HoleBridges {
     }
     std::sort(nearest.begin(), nearest.end());
     for (const auto& [distance2, i] : nearest) {
-      const auto is_in_the_way = [&](const Ring& ring) { return crosses(outer[i], b, ring); };
+      const std::uint32_t a = outer[i];
+      const auto is_in_the_way = [&](const Ring& ring) { return crosses(a, b, ring); };
       if (begins_inside(outer, i, b, is_ccw) && !is_in_the_way(outer) &&
           std::none_of(holes.begin(), holes.end(), is_in_the_way)) {
         return i;

@@ -11,7 +11,7 @@ namespace {
 /// Of all of them, each once.
 VoxelRuns runs_of_all(std::vector<VoxelIndex> voxels) {
   std::ranges::sort(voxels);
-  voxels.erase(std::ranges::unique(voxels).begin(), voxels.end());
+  voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
   return runs_of(voxels);
 }
 
