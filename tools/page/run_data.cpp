@@ -1,4 +1,6 @@
 // Names, figures and views of a run.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bench/compare/paper_figures.hpp"

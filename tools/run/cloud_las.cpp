@@ -1,4 +1,6 @@
 // read_las_cloud() of tools/run/cloud_formats.hpp: ASPRS LAS 1.4 R15, section 2.4.
+#include <fmt/format.h>
+
 #include "sim/core/file.hpp"
 #include "sim/core/text.hpp"
 #include "sim/mesh/plain_text.hpp"

@@ -1,5 +1,7 @@
 // read_pcd_cloud() of tools/run/cloud_formats.hpp. Our own: PCL's library would cost every start,
 // and loads VTK.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -1,4 +1,6 @@
 // read_text_cloud() of tools/run/cloud_formats.hpp.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
