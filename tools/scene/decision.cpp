@@ -155,7 +155,8 @@ bool has_frontier_views(const Plan& plan) {
 void add_frontiers(const ReplayedDecision& decision, double unit_m, const RenderView& view,
                    Panel& panel) {
   RenderScene& scene = panel.scene;
-  const auto& [belief, plan] = decision;
+  const Belief& belief = decision.belief;
+  const Plan& plan = decision.plan;
   const std::vector<FrontierCluster>& clusters = plan.clusters;
   const auto add_cubes = [&](const std::vector<VoxelIndex>& voxels, const Look& look) {
     // a hair larger than the map's own cubes, which may be as large as their voxels
@@ -186,7 +187,8 @@ void add_frontiers(const ReplayedDecision& decision, double unit_m, const Render
 
 Covered add_points_to_cover(const Scenario& scenario, const ReplayedDecision& decision,
                             double unit_m, RenderScene& scene) {
-  const auto& [belief, plan] = decision;
+  const Belief& belief = decision.belief;
+  const Plan& plan = decision.plan;
   const FvsConfig& fvs = scenario.planner.fvs;
   const std::vector<CameraModel> cameras = planner_model(scenario).sights;
   std::array<DotsItem, 2> dots;  // left, covered

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/core/parallel.hpp"
+#include "tools/scene/flight.hpp"
 
 namespace gnbv {
 namespace {
