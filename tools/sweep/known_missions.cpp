@@ -46,7 +46,7 @@ void keep_what_holds(const std::vector<Cell>& cells, const std::vector<std::stri
   std::size_t dropped = 0;
   for (const auto& [kind, members] : kinds) {
     const std::string& hash = known.at(ids[members.front()]).result_sha256;
-    const bool is_same = std::ranges::any_of(flown.rows, [&](const MissionRow& row) {
+    const bool is_same = std::ranges::any_of(flown.rows, [&, kind = kind](const MissionRow& row) {
       return std::pair(row.scenario, row.method) == kind && row.result_sha256 == hash;
     });
     for (const std::size_t i : members) dropped += is_same ? 0 : known.erase(ids[i]);
