@@ -20,7 +20,7 @@ ROUTE = ('planner.routes.views=[{position_m: [0, 5, 2]}, {position_m: [3.2, 0, 2
 GIMBAL = 'cameras.0.pitch_deg={min: 0, max: 60, step: 30}'
 NO_FLY = 'no_fly=[{min: [2.6, -0.8, 0], max: [4.5, 0.8, 3]}]'
 SCREEN = 'obstacles=[{box_m: {min: [-0.5, -1.6, 0], max: [0.5, -1.5, 1.6]}}]'
-# a pillar that goes up and down where the mission begins, and is waited for
+# a pillar that goes to and fro along x where the mission begins, and is waited for
 MOVER = ['start={position_m: [0, -3.2, 1.2], jitter_m: [0, 0, 0]}',
          'planner.profiling.method=none',
          'obstacles=[{box_m: {min: [-3.8, -2.6, 0], max: [-3.4, -2.2, 3]}, motion: {waypoints: '
